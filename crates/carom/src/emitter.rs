@@ -7,6 +7,7 @@ use glam::{DQuat, DVec3};
 use crate::bodies::Spheres;
 use crate::error::InvalidValue;
 use crate::id::SphereId;
+use crate::non_additivity::NonAdditivity;
 use crate::numbered::Numbered;
 use crate::settings::nearest_image;
 use crate::sphere::Sphere;
@@ -178,7 +179,7 @@ impl EmitterState {
         }
     }
 
-    fn needs(&self, room: Room) -> bool {
+    fn needs(&self, room: &Room) -> bool {
         self.emitter.needs_room.unwrap_or(room.is_needed)
     }
 
@@ -210,23 +211,27 @@ pub(crate) struct Emission {
 }
 
 /// The room that an emitted sphere needs.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub(crate) struct Room {
     /// Whether emitters need room by default.
     pub is_needed: bool,
     /// Edges of the periodic box \[m\], infinite along open axes.
     pub period: DVec3,
+    /// Where spheres of named materials touch.
+    pub non_additivity: NonAdditivity,
 }
 
 impl Room {
     /// Whether a sphere overlaps none of these, `apart` from one.
-    fn is_there(self, sphere: &Sphere, spheres: &Spheres, apart: Option<SphereId>) -> bool {
+    fn is_there(&self, sphere: &Sphere, spheres: &Spheres, apart: Option<SphereId>) -> bool {
         let apart = apart.and_then(|id| spheres.index_of(id));
         let places = spheres.positions().iter().zip(spheres.radii()).enumerate();
-        places.filter(|(index, _)| Some(*index) != apart).all(|(_, (&position, &radius))| {
+        places.filter(|(index, _)| Some(*index) != apart).all(|(index, (&position, &radius))| {
             let offset = position - sphere.position;
             let offset = nearest_image(offset, self.period);
-            let reach = (1.0 - OVERLAP) * (radius + sphere.radius);
+            let materials = [spheres.properties.material(index), sphere.material];
+            let factor = self.non_additivity.factor(materials);
+            let reach = (1.0 - OVERLAP) * (factor * (radius + sphere.radius));
             offset.length_squared() >= reach * reach
         })
     }
@@ -248,7 +253,7 @@ pub(crate) fn emit(
     spheres: &mut Spheres,
     next_id: &mut u64,
     time: f64,
-    room: Room,
+    room: &Room,
 ) -> Emission {
     let mut emission = Emission::default();
     for state in emitters.values_mut() {

@@ -59,6 +59,7 @@ mod lanes;
 mod material_pair;
 mod mesh;
 mod moving_bounds;
+mod non_additivity;
 mod norm;
 mod numbered;
 pub mod packing;

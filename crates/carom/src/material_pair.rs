@@ -1,11 +1,18 @@
 //! Pairs of materials whose coefficients no combine rule gives.
 
+use std::ops::RangeInclusive;
+
 use educe::Educe;
 
 use crate::error::InvalidValue;
 use crate::friction::{ContactFriction, Friction};
+use crate::non_additivity::NonAdditivity;
 use crate::restitution::{BodyRestitution, ContactRestitution, RestitutionLaw};
 use crate::validate;
+
+/// Smaller contact distances would be of the size of what contacts of spheres tolerate, larger ones make each sphere a
+/// neighbour of many.
+const NON_ADDITIVITIES: RangeInclusive<f64> = -0.9..=9.0;
 
 /// Coefficients of the contacts of two materials, instead of those that the combine rules give.
 ///
@@ -33,13 +40,17 @@ pub struct MaterialPair {
     pub restitution_law: Option<RestitutionLaw>,
     /// Friction; a coefficient that is `None` is that of the combine rule.
     pub friction: Friction,
+    /// Non-additivity parameter Δ from -0.9 to 9: two spheres touch where their centres are `(1 + Δ)` times the sum of
+    /// their radii apart. Without effect on colliders. 0 unless given.
+    pub non_additivity: f64,
 }
 
 impl MaterialPair {
     /// A pair that leaves all coefficients to the combine rules.
     pub fn new(first: u8, second: u8) -> Self {
+        let materials = [first, second];
         let (restitution, restitution_law, friction) = Default::default();
-        Self { materials: [first, second], restitution, restitution_law, friction }
+        Self { materials, restitution, restitution_law, friction, non_additivity: 0.0 }
     }
 
     /// Returns the pair with this coefficient of restitution.
@@ -55,6 +66,25 @@ impl MaterialPair {
     /// Returns the pair with this friction: a coefficient, or a [`Friction`].
     pub fn with_friction(self, friction: impl Into<Friction>) -> Self {
         Self { friction: friction.into(), ..self }
+    }
+
+    /// Returns the pair with this non-additivity parameter.
+    ///
+    /// ```
+    /// use carom::{DVec3, MaterialPair, Sphere, World};
+    ///
+    /// let mut world = World::default();
+    /// world.set_material_pairs([MaterialPair::new(1, 2).with_non_additivity(0.5)])?;
+    /// let at = |x: f64, material| Sphere::new(DVec3::X * x, 0.5).with_material(material);
+    /// world.add_sphere(at(0.0, 1).with_velocity(DVec3::X))?;
+    /// world.add_sphere(at(2.0, 2))?;
+    /// // Their diameters are 1 m, and their centres 1.5 m apart when they touch.
+    /// world.step(1.0)?;
+    /// assert_eq!(world.report().impacts[0].time, 0.5);
+    /// # Ok::<(), carom::Error>(())
+    /// ```
+    pub fn with_non_additivity(self, non_additivity: f64) -> Self {
+        Self { non_additivity, ..self }
     }
 
     /// Restitution of its contacts, if it is given.
@@ -84,6 +114,9 @@ impl MaterialPair {
             validate::unit_interval("restitution", restitution)?;
         }
         self.restitution_law.map_or(Ok(()), |law| law.validate())?;
+        let is_known = NON_ADDITIVITIES.contains(&self.non_additivity);
+        let requirement = "from -0.9 to 9";
+        validate::require(is_known, "non_additivity", requirement, self.non_additivity)?;
         self.friction.validate()
     }
 }
@@ -99,6 +132,8 @@ pub(crate) struct MaterialPairs {
     table: Vec<u16>,
     /// Largest material, plus one.
     side: usize,
+    /// Where spheres touch.
+    pub non_additivity: NonAdditivity,
 }
 
 impl MaterialPairs {
@@ -119,7 +154,9 @@ impl MaterialPairs {
             table[first * side + second] = number;
             table[second * side + first] = number;
         }
-        Ok(Self { list, table, side })
+        let parameters = list.iter().map(|pair| (pair.materials, pair.non_additivity));
+        let non_additivity = NonAdditivity::of(parameters, side);
+        Ok(Self { list, table, side, non_additivity })
     }
 
     pub fn list(&self) -> &[MaterialPair] {
@@ -128,6 +165,12 @@ impl MaterialPairs {
 
     pub fn is_empty(&self) -> bool {
         self.list.is_empty()
+    }
+
+    /// Whether no pair has a restitution of its own other than 1.
+    pub fn are_elastic(&self) -> bool {
+        let mut given = self.list.iter().filter_map(MaterialPair::contact_restitution);
+        given.all(|restitution| restitution.is_elastic())
     }
 
     /// The pair of two materials, 0 for none.

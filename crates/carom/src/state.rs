@@ -270,12 +270,23 @@ impl State {
     /// Refuses a periodic box in which a sphere could touch two images of another one.
     pub fn check_box(&self) -> Result<(), Error> {
         let smallest = self.settings.boundary.period().min_element();
-        let largest = self.spheres.radii().iter().copied().fold(0.0, f64::max);
+        let largest = if self.material_pairs.non_additivity.is_none() {
+            self.spheres.radii().iter().copied().fold(0.0, f64::max)
+        } else {
+            let system = self.now().system;
+            let spheres = 0..self.spheres.len() as u32;
+            spheres.map(|sphere| system.reach_of(sphere)).fold(0.0, f64::max)
+        };
         let (requirement, largest) = match self.settings.pair_potential {
             Some(potential) => (
                 "at least four times the radius of every sphere, times the `range_ratio` of the pair potential, \
                  along every axis",
                 potential.range_ratio() * largest,
+            ),
+            None if !self.material_pairs.non_additivity.is_none() => (
+                "at least four times the radius of every sphere, times one plus the largest `non_additivity` of \
+                 its material, along every axis",
+                largest,
             ),
             None => ("at least four times the radius of every sphere along every axis", largest),
         };
@@ -287,9 +298,11 @@ impl State {
     pub fn check_grown(&self, h: f64) -> Result<(), Error> {
         let smallest = self.settings.boundary.period().min_element();
         let spheres = &self.spheres.properties;
-        let grown = |(radius, speed): (&f64, &f64)| radius + speed * h;
-        let largest =
-            spheres.radius.iter().zip(&spheres.growth_speed).map(grown).fold(0.0, f64::max);
+        let reach =
+            |index: usize| self.material_pairs.non_additivity.reach(spheres.material(index));
+        let grown =
+            |(index, speed): (usize, &f64)| reach(index) * (spheres.radius[index] + speed * h);
+        let largest = spheres.growth_speed.iter().enumerate().map(grown).fold(0.0, f64::max);
         let requirement =
             "at least four times what the radius of every sphere grows to along every axis";
         validate::require(smallest >= 4.0 * largest, "size", requirement, smallest)

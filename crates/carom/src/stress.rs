@@ -216,7 +216,9 @@ fn reach(world: &World, between: &BodyPair, before_end: f64) -> f64 {
         spheres.radii()[index] - speed * before_end
     };
     match *between {
-        BodyPair::Spheres(first, second) => radius(first) + radius(second),
+        BodyPair::Spheres(first, second) => {
+            world.distance_factor([first, second]) * (radius(first) + radius(second))
+        }
         BodyPair::Collider { sphere, .. } => radius(sphere),
     }
 }

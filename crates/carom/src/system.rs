@@ -138,6 +138,31 @@ impl<'a> System<'a> {
         })
     }
 
+    /// Radii of two spheres \[m\], by index, multiplied by the factor of their contact distance: they touch where their
+    /// centres are as far apart as the sum.
+    #[inline]
+    pub fn contact_radii(&self, spheres: [u32; 2]) -> [f64; 2] {
+        let radii = spheres.map(|sphere| self.spheres.radius[sphere as usize]);
+        let non_additivity = &self.material_pairs.non_additivity;
+        if non_additivity.is_none() {
+            return radii;
+        }
+        let materials = spheres.map(|sphere| self.spheres.material(sphere as usize));
+        let factor = non_additivity.factor(materials);
+        radii.map(|radius| factor * radius)
+    }
+
+    /// Radius of a sphere, by index, multiplied by the largest factor of its contact distances \[m\].
+    #[inline]
+    pub fn reach_of(&self, sphere: u32) -> f64 {
+        let radius = self.spheres.radius[sphere as usize];
+        let non_additivity = &self.material_pairs.non_additivity;
+        if non_additivity.is_none() {
+            return radius;
+        }
+        non_additivity.reach(self.spheres.material(sphere as usize)) * radius
+    }
+
     /// Whether the restitution of two spheres may differ from that which the combine rule gives for their two
     /// coefficients.
     #[inline]

@@ -126,11 +126,13 @@ impl Reach {
         }
     }
 
-    /// Whether the sphere cannot meet another one at the offset `shift` \[m\] within their horizons.
+    /// Whether the sphere cannot meet another one at the offset `shift` \[m\] within their horizons, where they touch at
+    /// the sum of their radii and a part of it `beyond`.
     #[inline]
-    pub fn misses_sphere(&self, other: &Self, shift: DVec3) -> bool {
+    pub fn misses_sphere(&self, other: &Self, beyond: f64, shift: DVec3) -> bool {
         let offset = other.flight.position + shift - self.flight.position;
-        let size = self.radius + other.radius;
+        let sum = self.radius + other.radius;
+        let size = sum + beyond * sum;
         let margin = MARGIN * (offset.abs().element_sum() + size);
         offset.norm() > size + self.way + other.way + margin
     }

@@ -291,7 +291,7 @@ fn are_flush(system: System, contacts: [&Contact; 2]) -> bool {
 }
 
 fn sphere_at(instant: &Instant, i: u32) -> (u32, DVec3, f64) {
-    (i, instant.motion.position[i as usize], instant.system.spheres.radius[i as usize])
+    (i, instant.motion.position[i as usize], instant.system.reach_of(i))
 }
 
 fn add_pair(instant: &Instant, [i, j]: [u32; 2], tolerance: f64, contacts: &mut Vec<Contact>) {

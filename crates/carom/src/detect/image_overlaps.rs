@@ -29,21 +29,22 @@ pub(crate) fn visit(
     mut visit: impl FnMut(Bodies, f64),
 ) {
     let faces = Faces::of(instant);
-    let radii = &instant.system.spheres.radius;
-    let largest = radii.iter().copied().fold(0.0, f64::max);
+    let centers = || (0..).zip(&instant.motion.position);
+    let reach = |sphere: u32| instant.system.reach_of(sphere);
+    let largest = centers().map(|(sphere, _)| reach(sphere)).fold(0.0, f64::max);
     let mut images = Vec::new();
-    let bodies = instant.motion.position.iter().zip(radii);
-    for (sphere, (&center, radius)) in (0..).zip(bodies) {
-        faces.add_images(sphere, center, radius + largest, &mut images);
+    for (sphere, &center) in centers() {
+        faces.add_images(sphere, center, reach(sphere) + largest, &mut images);
     }
     if instant.system.settings.spheres_collide {
-        let radius = |image: &Image| radii[image.sphere as usize];
         let mut broad_phase = BroadPhase::default();
-        let all = (0..).zip(&images).map(|(place, image)| (place, image.center, radius(image)));
+        let all =
+            (0..).zip(&images).map(|(place, image)| (place, image.center, reach(image.sphere)));
         broad_phase.rebuild(all, 0.0);
         broad_phase.for_each_pair(|i, j| {
             let [one, other] = [i, j].map(|place| &images[place as usize]);
-            let depth = radius(one) + radius(other) - one.center.distance(other.center);
+            let [first, second] = instant.system.contact_radii([one.sphere, other.sphere]);
+            let depth = first + second - one.center.distance(other.center);
             let is_seen = one.sphere != other.sphere && (one.is_own || other.is_own);
             let meet = instant.system.spheres_meet(one.sphere, other.sphere);
             if is_seen && meet && depth > tolerance {

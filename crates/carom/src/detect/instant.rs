@@ -27,7 +27,7 @@ impl Instant<'_> {
         let (first, second) = (i.min(j), i.max(j));
         let (i, j) = (first as usize, second as usize);
         let Motion { position, velocity, .. } = self.motion;
-        let radii = [self.system.spheres.radius[i], self.system.spheres.radius[j]];
+        let radii = self.system.contact_radii([first, second]);
         let separation = sphere_sphere([position[i], position[j]], radii);
         let normal = separation.normal;
         let acceleration = |k| integrate::acceleration(&self.system, self.motion, k, self.time);

@@ -121,7 +121,8 @@ impl Tally {
         for impact in impacts {
             if let BodyPair::Spheres(first, second) = impact.between {
                 let distance = radius_at(first, impact.time) + radius_at(second, impact.time);
-                virial.add(impact.impulse * distance);
+                let factor = world.distance_factor([first, second]);
+                virial.add(impact.impulse * (factor * distance));
                 count += 1;
             }
         }

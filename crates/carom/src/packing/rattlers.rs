@@ -37,6 +37,7 @@ pub fn rattlers(world: &World, gap: f64) -> Result<usize, Error> {
     let spheres = world.spheres();
     // Spheres enlarged by the gap overlap if the original ones are in contact.
     let mut swollen = World::new(*world.settings())?;
+    swollen.set_material_pairs(world.material_pairs().iter().copied())?;
     for (_, collider) in world.colliders() {
         swollen.add_collider(collider.clone())?;
     }

@@ -134,7 +134,8 @@ impl<'a> Attempt<'a> {
     pub fn room(&self) -> Room {
         let settings = &self.state.settings;
         let is_needed = matches!(settings.rule, Rule::Contact(_)) && settings.spheres_collide;
-        Room { is_needed, period: settings.boundary.period() }
+        let non_additivity = self.state.material_pairs.non_additivity.clone();
+        Room { is_needed, period: settings.boundary.period(), non_additivity }
     }
 
     /// Emits the spheres that are due at `time` \[s\], with all others in the places of the arrays; the first time
@@ -148,7 +149,7 @@ impl<'a> Attempt<'a> {
         let energy = self.state.total_energy(time);
         let potential = self.state.nonconservative_potential(time);
         let State { emitters, spheres, next_id, .. } = &mut *self.state;
-        let emission = emitter::emit(emitters, spheres, next_id, time, room);
+        let emission = emitter::emit(emitters, spheres, next_id, time, &room);
         if !emission.retired.is_empty() {
             self.state.drop_loose_springs();
         }

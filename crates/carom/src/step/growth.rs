@@ -38,13 +38,13 @@ fn obstacle(state: &State) -> Option<&'static str> {
     let mut restitutions = (0..spheres.len()).map(|it| spheres.properties.restitution(it));
     let has_inelastic = !restitutions.all(|it| it.is_elastic())
         || !surfaces().all(|it| it.restitution.is_elastic())
-        || !state.material_pairs.is_empty();
+        || !state.material_pairs.are_elastic();
     let moves = |it: &Surface| !it.motion.is_at_rest() || it.kick != 0.0;
     let reports = |it: &Surface| it.role == Role::Reports;
     let is_other_rule = !matches!(state.settings.rule, Rule::Exact(_));
     let of_rule = (is_other_rule, "zero under rules other than `exact`");
     let others = [
-        (has_inelastic, "zero where a restitution is not 1, and beside pairs of materials"),
+        (has_inelastic, "zero where a restitution is not 1"),
         (state.emitters.iter().len() > 0, "zero in a world with emitters"),
         (state.settings.thermostat.is_some(), "zero beside a thermostat"),
         (state.settings.pair_potential.is_some(), "zero beside a pair potential"),

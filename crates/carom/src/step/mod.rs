@@ -7,6 +7,7 @@ mod by_frame;
 mod capture;
 mod growth;
 mod lookahead;
+mod non_additivity;
 mod obstacle;
 mod pair_potential;
 mod place;
@@ -55,14 +56,15 @@ fn check_length(state: &State, dt: f64) -> Result<(), Error> {
         .map_err(|invalid| invalid.about(Subject::Step))
 }
 
-/// Returns an error for what two dimensions, shear, growth, a pair potential, forces or the thermostat cannot be
-/// combined with in a step of `dt` \[s\].
+/// Returns an error for what two dimensions, shear, growth, a pair potential, pairs of materials, forces or the
+/// thermostat cannot be combined with in a step of `dt` \[s\].
 fn check_combinations(state: &State, dt: f64) -> Result<(), Error> {
     plane::check(state)?;
     shear::check(state, dt)?;
     growth::check(state, dt)?;
     pair_potential::check(state)?;
     singular::check(state)?;
+    non_additivity::check(state)?;
     let Some(thermostat) = state.settings.thermostat else { return Ok(()) };
     let end = state.clock.after(dt).seconds();
     thermostat.check_step(dt, end).map_err(|invalid| invalid.about(Subject::Step))

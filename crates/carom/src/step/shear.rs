@@ -20,10 +20,12 @@ const TOO_FAST: &str = "at most 100 divided by the length of a step";
 pub(super) fn account_for_impacts(attempt: &mut Attempt) {
     let Some(shear) = Shear::of(&attempt.state.settings) else { return };
     let spheres = &attempt.state.spheres;
-    let radius = |id| spheres.index_of(id).map_or(0.0, |index| spheres.radii()[index]);
+    let system = attempt.state.now().system;
+    let index_of = |id| spheres.index_of(id).map(|index| index as u32);
     let works = attempt.report.impacts.iter().map(|impact| {
         let BodyPair::Spheres(first, second) = impact.between else { return 0.0 };
-        let height = (radius(first) + radius(second)) * impact.normal.y;
+        let Some(pair) = index_of(first).zip(index_of(second)) else { return 0.0 };
+        let height = system.contact_radii(pair.into()).into_iter().sum::<f64>() * impact.normal.y;
         -shear.rate * height * impact.impulse * impact.normal.x
     });
     attempt.report.energy_account.shear += works.collect::<Sum>().value();

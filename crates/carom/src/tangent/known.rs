@@ -33,6 +33,9 @@ pub(super) fn check(world: &World) -> Result<(), DerivativeError> {
     if system.spheres.growth_speed.iter().any(|&speed| speed > 0.0) {
         return refuse("spheres that grow");
     }
+    if !system.material_pairs.non_additivity.is_none() {
+        return refuse("pairs of materials with a non-additivity");
+    }
     Ok(())
 }
 

@@ -50,6 +50,7 @@ pub(super) fn begin(system: &System, motion: &mut Motion, h: f64, solver: &mut S
         motion.spin.make_room(ids.len());
     }
     solver.slots.period = system.settings.boundary.period();
+    solver.slots.factor = system.material_pairs.non_additivity.largest();
     solver.slots.shear = Shear::of(system.settings);
     solver.slots.read(system, motion, kinds.friction);
     solver.smallest_radius = system.spheres.radius.iter().copied().fold(f64::INFINITY, f64::min);

@@ -57,10 +57,9 @@ pub(crate) fn proximity(solver: &Solver) -> Vec<(SphereId, Proximity)> {
     for slab in slabs.iter() {
         for (number, lane, _) in slab.batches.contacts() {
             let both = slab.slots_of(number, lane);
-            let [from, to] = both.map(|slot| slots.position[slot]);
             let offset = slots.offset(both);
             let [before, after] = both.map(|slot| slots.velocity[slot].vector());
-            let radius_sum = from.number() + to.number();
+            let radius_sum = slab.batches.approaches[number].radius_sum[lane];
             let (distance, velocity) = (offset.length(), after - before);
             let closing = -velocity.dot(offset) / distance;
             let gap = distance - radius_sum;

@@ -184,7 +184,8 @@ impl Link {
             self.normal = offset / length;
         }
         self.gap = length - self.radius_sum;
-        self.point = first.position + first.radius * self.normal;
+        let part = self.radius_sum / (first.radius + second.radius);
+        self.point = first.position + part * first.radius * self.normal;
         true
     }
 

@@ -78,10 +78,7 @@ impl ImageSearch {
         if period == DVec3::INFINITY {
             return;
         }
-        let reach = |slot: u32| {
-            let slot = slot as usize;
-            slots.position[slot].number() + slots.reference[slot].number()
-        };
+        let reach = |slot: u32| slots.reach_of(slot as usize);
         self.gather(slots, period, reach);
         let Self { own, images, phases: [of_own, of_images], found } = self;
         let spheres = |places: &[Place]| -> Vec<(u32, DVec3, f64)> {

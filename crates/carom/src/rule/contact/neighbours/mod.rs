@@ -237,7 +237,7 @@ impl Known<'_> {
         let spins = [at.spin.get(first), at.spin.get(second)];
         Pair {
             slots: slots.map(|slot| slot - start as u32),
-            radii: [at.position[first].number(), at.position[second].number()],
+            radii: at.contact_radii([first, second], self.system),
             inverse_masses: [at.velocity[first].number(), at.velocity[second].number()],
             inverse_inertias: spins.map(|row| row.map_or(0.0, |row| row.number())),
             material: self.materials.of_pair(indices, self.system),

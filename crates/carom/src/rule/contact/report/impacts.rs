@@ -18,13 +18,18 @@ pub(crate) fn report(
     report: &mut StepReport,
 ) {
     for slab in solver.slabs.iter() {
-        of_pairs(solver, slab, sub_step.time, &mut report.impacts);
+        of_pairs((system, solver), slab, sub_step.time, &mut report.impacts);
         of_surfaces(system, solver, slab, sub_step.time, &mut report.impacts);
     }
     report.impacts[first..].sort_by_key(|impact| impact.between);
 }
 
-fn of_pairs(solver: &Solver, slab: &Slab, time: f64, impacts: &mut Vec<Impact>) {
+fn of_pairs(
+    (system, solver): (&System, &Solver),
+    slab: &Slab,
+    time: f64,
+    impacts: &mut Vec<Impact>,
+) {
     for (number, lane, approach_speed) in slab.batches.impacts() {
         let pair = &slab.batches.pairs[number];
         let mut tangential_impulse = slab.batches.tangential_impulse(number, lane);
@@ -42,7 +47,7 @@ fn of_pairs(solver: &Solver, slab: &Slab, time: f64, impacts: &mut Vec<Impact>) 
         let at = &solver.slots;
         let mut relative = at.velocity[second].vector() - at.velocity[first].vector();
         relative.x += slide;
-        let radius = at.position[first].number();
+        let [radius, _] = at.contact_radii([first, second], system);
         impacts.push(Impact {
             time,
             between: BodyPair::Spheres(at.id[first], at.id[second]),

@@ -21,14 +21,14 @@ pub(crate) fn persistent_contacts(solver: &Solver, system: &System) -> Vec<Persi
         return Vec::new();
     }
     let mut contacts = Vec::new();
-    of_pairs(solver, &mut contacts);
+    of_pairs(solver, system, &mut contacts);
     of_surfaces(solver, system, &mut contacts);
     of_sleepers(solver, system, &mut contacts);
     contacts.sort_by_key(|contact| contact.between);
     contacts
 }
 
-fn of_pairs(solver: &Solver, contacts: &mut Vec<PersistentContact>) {
+fn of_pairs(solver: &Solver, system: &System, contacts: &mut Vec<PersistentContact>) {
     for slab in solver.slabs.iter() {
         for (number, lane, slots) in slab.batches.contacts() {
             let pair = &slab.batches.pairs[number];
@@ -44,14 +44,14 @@ fn of_pairs(solver: &Solver, contacts: &mut Vec<PersistentContact>) {
                 continue;
             }
             let sliding = friction.map_or(0.0, |it| it.sliding[lane]);
-            contacts.push(of_pair(solver, slots, impulses, sliding));
+            contacts.push(of_pair((solver, system), slots, impulses, sliding));
         }
     }
 }
 
 /// The contact of the spheres in two slots, with the impulses on the second.
 fn of_pair(
-    solver: &Solver,
+    (solver, system): (&Solver, &System),
     [mut first, mut second]: [usize; 2],
     mut impulses: Impulses,
     sliding: f64,
@@ -60,7 +60,7 @@ fn of_pair(
     if slots.id[first] > slots.id[second] {
         (first, second, impulses) = (second, first, impulses.reversed());
     }
-    let radii = [first, second].map(|slot| slots.position[slot].number());
+    let radii = slots.contact_radii([first, second], system);
     let from = slots.place(first);
     let separation = sphere_sphere([from, slots.image_near(second, from)], radii);
     PersistentContact {
@@ -109,7 +109,7 @@ fn of_sleepers(solver: &Solver, system: &System, contacts: &mut Vec<PersistentCo
         let slot = sphere as usize;
         match partner {
             Partner::Sphere(other) => {
-                contacts.push(of_pair(solver, [other as usize, slot], impulses, sliding));
+                contacts.push(of_pair((solver, system), [other as usize, slot], impulses, sliding));
             }
             // It is among the others.
             Partner::Awake(_) => {}

@@ -112,7 +112,7 @@ impl Search {
         let drift = self.find_margins(slots, [frame, h], approaches, near);
         let Self { grid, starts, margins, from, slot_of, cells, spare, .. } = self;
         let count = slots.len();
-        let reach = |slot: usize| slots.position[slot].number() + margins[slot];
+        let reach = |slot: usize| slots.factor * slots.position[slot].number() + margins[slot];
         let mean = (0..count).map(reach).sum::<f64>() / count.max(1) as f64;
         let widest = (0..count).map(reach).filter(|&it| it <= WIDE * mean).fold(0.0, f64::max);
         let down = slots.acceleration.iter().map(|row| row.vector()).sum::<DVec3>();
@@ -186,14 +186,14 @@ impl Search {
             let turned = row.vector().length() + velocity.length();
             let Some(approaches) = approaches else {
                 let margin = bounded.max(FASTER * beside * h);
-                let radius = slots.position[slot].number();
+                let radius = slots.factor * slots.position[slot].number();
                 return margin + rate.abs() * lasting * (radius + margin);
             };
             let fastest = beside.max(turned + hit(approaches, slot));
             bounded.max(FASTER * fastest * h)
         }));
         let within = (farthest / velocity.length().max(f64::MIN_POSITIVE)).max(FASTER * h);
-        Drift::begin(velocity, lasting.min(within)).with_shear(rate)
+        Drift::begin(velocity, lasting.min(within)).with_shear(rate, slots.factor)
     }
 
     /// First slots of runs of whole layers with about equal numbers of spheres, and the end of the last.
@@ -217,8 +217,8 @@ impl Search {
     /// Finds the pairs of slots whose spheres may touch until the next search, the smaller slot first and
     /// in order of it, for the slab of that one.
     pub fn find_pairs(&mut self, slots: &Slots, slabs: &mut Slabs) {
-        let Slots { position, reference, .. } = slots;
-        let reach = |slot: usize| position[slot].number() + reference[slot].number();
+        let Slots { position, .. } = slots;
+        let reach = |slot: usize| slots.reach_of(slot);
         let widest = 0.5 * self.grid.width();
         self.wide.clear();
         self.wide.extend((0..slots.len() as u32).filter(|&slot| reach(slot as usize) > widest));
@@ -263,8 +263,7 @@ impl Search {
     /// Returns how far spheres may reach beyond the box until the next search, with radii and
     /// margins \[m\].
     pub fn reach(slots: &Slots) -> f64 {
-        let reaches = slots.position.iter().zip(&slots.reference);
-        reaches.map(|(place, from)| place.number() + from.number()).fold(0.0, f64::max)
+        (0..slots.len()).map(|slot| slots.reach_of(slot)).fold(0.0, f64::max)
     }
 
     /// The slot that the sphere of each slot was moved to.
@@ -287,10 +286,8 @@ impl Search {
     /// Spheres of all sizes: pairs come in no useful order.
     fn find_by_hierarchy(&mut self, slots: &Slots) {
         let Self { broad_phase, pairs, tests, .. } = self;
-        let spheres = (0..slots.len()).map(|slot| {
-            let reach = slots.position[slot].number() + slots.reference[slot].number();
-            (slot as u32, slots.position[slot].vector(), reach)
-        });
+        let spheres = (0..slots.len())
+            .map(|slot| (slot as u32, slots.position[slot].vector(), slots.reach_of(slot)));
         broad_phase.rebuild(spheres, 0.0);
         broad_phase.for_each_pair(|i, j| pairs.push([i.min(j), i.max(j)]));
         *tests += pairs.len() as u64;
@@ -337,10 +334,10 @@ impl Cells<'_> {
     /// Pairs of spheres none of which is wide, and one of which is awake, in one cell or in neighbouring
     /// ones, the smaller slot among these. Returns how many were tested.
     fn find_pairs(&self, slots: Range<usize>, pairs: &mut Vec<[u32; 2]>) -> u64 {
-        let Self { grid, slots: Slots { position, reference, sleeps, .. }, .. } = *self;
+        let Self { grid, slots: all @ Slots { position, sleeps, .. }, .. } = *self;
         let [layers, rows, columns] = grid.cells;
         let widest = 0.5 * grid.width();
-        let reach = |slot: usize| position[slot].number() + reference[slot].number();
+        let reach = |slot: usize| all.reach_of(slot);
         let mut tests = 0;
         for first in slots {
             let own_reach = reach(first);

@@ -27,12 +27,13 @@ const REST: f64 = 1.0;
 
 /// Wakes spheres that something is about to hit in a sub-step of `h` \[s\], and those around them.
 pub(crate) fn touched(system: &System, solver: &mut Solver, h: f64) {
-    let Slots { position, velocity, index, acceleration, .. } = &solver.slots;
+    let Slots { velocity, index, acceleration, .. } = &solver.slots;
     let (mut felt, mut hard) = (Vec::new(), Vec::new());
     let mut farthest = 0.0_f64;
     for &[sleeper, other] in &solver.watched {
         let [sleeper, other] = [sleeper, other].map(|slot| slot as usize);
-        let radius_sum = position[sleeper].number() + position[other].number();
+        let radius_sum: f64 =
+            solver.slots.contact_radii([sleeper, other], system).into_iter().sum();
         let offset = solver.slots.offset([sleeper, other]);
         let way = h * slots::accelerated(velocity[other], acceleration[other], h);
         // The nearest point of the way.

@@ -19,6 +19,8 @@ pub(crate) struct Drift {
     pub rate: f64,
     /// Shear since the search.
     pub strain: f64,
+    /// Largest factor of the contact distances of spheres.
+    pub factor: f64,
 }
 
 impl Drift {
@@ -27,9 +29,10 @@ impl Drift {
         Self { velocity, reach: velocity.length() * lasting, ..Self::default() }
     }
 
-    /// The same drift beside a shear flow with this rate \[1/s\].
-    pub fn with_shear(self, rate: f64) -> Self {
-        Self { rate, ..self }
+    /// The same drift beside a shear flow with this rate \[1/s\], of spheres whose contact distances have this largest
+    /// factor.
+    pub fn with_shear(self, rate: f64, factor: f64) -> Self {
+        Self { rate, factor, ..self }
     }
 
     /// After a time of `h` \[s\] more.
@@ -52,6 +55,7 @@ impl Drift {
         if self.strain == 0.0 {
             return margin;
         }
+        let radius = self.factor * radius;
         (radius + margin) / (1.0 + self.strain.abs()) - radius
     }
 
@@ -59,6 +63,7 @@ impl Drift {
     #[inline(always)]
     pub fn reach_after<S: Simd>(&self, simd: S, radius: Lanes<S>, margin: Lanes<S>) -> Lanes<S> {
         let whole = Lanes::all(simd, 1.0 + self.strain.abs());
+        let radius = radius * Lanes::all(simd, self.factor);
         let left = (radius + margin) / whole - radius;
         left * left.abs()
     }

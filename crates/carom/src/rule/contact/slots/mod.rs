@@ -72,12 +72,30 @@ pub(crate) struct Slots {
     pub shear: Option<Shear>,
     /// The present time, where images slide \[s\].
     pub time: f64,
+    /// Largest factor of the contact distances of spheres, at least 1.
+    pub factor: f64,
 }
 
 /// The index of a sphere that was taken out of the world.
 pub(crate) const GONE: u32 = u32::MAX;
 
 impl Slots {
+    /// Half the largest contact distance of a sphere with others like it, and the path that it may go until the next
+    /// search \[m\].
+    #[inline(always)]
+    pub fn reach_of(&self, slot: usize) -> f64 {
+        self.factor * self.position[slot].number() + self.reference[slot].number()
+    }
+
+    /// Radii of the spheres in two slots \[m\], multiplied by the factor of their contact distance.
+    #[inline]
+    pub fn contact_radii(&self, slots: [usize; 2], system: &System) -> [f64; 2] {
+        if system.material_pairs.non_additivity.is_none() {
+            return slots.map(|slot| self.position[slot].number());
+        }
+        system.contact_radii(slots.map(|slot| self.index[slot]))
+    }
+
     pub fn len(&self) -> usize {
         self.id.len()
     }

@@ -174,7 +174,8 @@ impl<'a> Gathering<'a> {
                 continue;
             }
             let (near_place, near_velocity) = timeline.flights.state_of(near, self.time);
-            let radius_sum = species.radius + timeline.flights.species_of(near).radius;
+            let flights = &timeline.flights;
+            let radius_sum = flights.contact_distance([&species, flights.species_of(near)]);
             let gap = (near_place + shift - place).norm() - radius_sum;
             let coordinates = place.norm() + near_place.norm() + radius_sum;
             let speed = (near_velocity - velocity).norm();

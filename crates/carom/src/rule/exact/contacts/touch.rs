@@ -155,8 +155,8 @@ impl Touch {
             Bodies::Pair(..) => {
                 let first = &members[self.first?];
                 let centers = [first.position, second.position + self.shift];
-                let separation =
-                    sphere_sphere(centers, [first.species.radius, second.species.radius]);
+                let spheres = [first.index, second.index];
+                let separation = sphere_sphere(centers, context.system.contact_radii(spheres));
                 let distance = (centers[1] - centers[0]).norm();
                 Some(Self {
                     curvature: NormalCurvature::RoundFeature(distance),

@@ -14,19 +14,47 @@ impl Flights {
         self.growth.map_or(species.radius, |growth| growth.radius_at(species, time))
     }
 
-    /// Radius for which neighbour lists are made for a species \[m\]: with growth or wells, that of its reach.
+    /// Factor of the contact distance of two species: they touch where their centres are this many times the sum of
+    /// their radii apart.
+    #[inline]
+    pub fn distance_factor(&self, species: [&Species; 2]) -> f64 {
+        if self.non_additivity.is_none() {
+            return 1.0;
+        }
+        self.non_additivity.factor(species.map(|it| it.material))
+    }
+
+    /// Radii of two species \[m\], multiplied by the factor of their contact distance.
+    #[inline]
+    pub fn contact_radii(&self, species: [&Species; 2]) -> [f64; 2] {
+        let factor = self.distance_factor(species);
+        species.map(|it| factor * it.radius)
+    }
+
+    /// Distance of the centres of two species in contact \[m\].
+    #[inline]
+    pub fn contact_distance(&self, species: [&Species; 2]) -> f64 {
+        let [first, second] = self.contact_radii(species);
+        first + second
+    }
+
+    /// Radius for which neighbour lists are made for a species \[m\]: with growth, wells or contact distances larger
+    /// than the sums of radii, that of its reach.
     #[inline]
     pub fn largest_radius(&self, species: &Species) -> f64 {
         if let Some(wells) = &self.wells {
             return wells.range_ratio * species.radius;
         }
-        self.growth.map_or(species.radius, |growth| growth.radius_at(species, growth.until))
+        let radius =
+            self.growth.map_or(species.radius, |growth| growth.radius_at(species, growth.until));
+        self.non_additivity.reach(species.material) * radius
     }
 
     /// Sets for how long neighbour lists made at `time` \[s\] are valid, in a periodic box with these edges \[m\].
     pub fn make_room_to_grow(&mut self, time: f64, period: DVec3) {
         if let Some(growth) = &mut self.growth {
-            growth.until = growth.room_ends(&self.species, time, period);
+            let reach = self.non_additivity.largest();
+            growth.until = growth.room_ends(&self.species, time, period / reach);
         }
     }
 

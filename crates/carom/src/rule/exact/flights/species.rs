@@ -27,6 +27,8 @@ pub(crate) struct Species {
     /// Mass \[kg\].
     pub mass: f64,
     pub restitution: f64,
+    /// Number of the material where spheres are non-additive; 0 elsewhere.
+    pub material: u8,
     /// Acceleration by everything but drag \[m/s²\], with the forces of persistent contacts.
     pub acceleration: DVec3,
     /// Drag coefficient divided by mass \[1/s\].
@@ -85,6 +87,7 @@ impl SpeciesOfSpheres {
         let has_own_forces = !spheres.applied_force.is_empty() || forces_vary;
         let is_held = system.holds_forces_of_all();
         let is_coupled = coupled(system);
+        let is_additive = system.material_pairs.non_additivity.is_none();
         let mut species: Vec<Species> = Vec::new();
         let mut known = BTreeMap::new();
         let mut number_of = Vec::with_capacity(levels.len());
@@ -95,7 +98,8 @@ impl SpeciesOfSpheres {
             forces_vary |= !is_all;
             let own = if is_all && !has_own_forces { 0 } else { index + 1 };
             let growth_speed = spheres.growth_speed(index);
-            let key = ([radius, growth_speed, mass, restitution].map(f64::to_bits), own);
+            let material = if is_additive { 0 } else { spheres.material(index) };
+            let key = ([radius, growth_speed, mass, restitution].map(f64::to_bits), material, own);
             let next = species.len() as u32;
             let number = *known.entry(key).or_insert(next);
             if number == next {
@@ -105,6 +109,7 @@ impl SpeciesOfSpheres {
                     growth_speed,
                     mass,
                     restitution,
+                    material,
                     acceleration,
                     drag_rate,
                     level,

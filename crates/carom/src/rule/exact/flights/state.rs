@@ -19,6 +19,7 @@ use crate::bodies::Motion;
 use crate::contact_time::Reach;
 use crate::detect::contact::Bodies;
 use crate::integrate::gauss_legendre;
+use crate::non_additivity::NonAdditivity;
 use crate::polynomial_flight::PolynomialAcceleration;
 use crate::rule::periodic;
 use crate::shear::Shear;
@@ -51,6 +52,8 @@ pub(crate) struct Flights {
     pub growth: Option<Growth>,
     /// Wells around spheres; `None` without a potential between them.
     pub wells: Option<Wells>,
+    /// Where spheres of named materials touch.
+    pub non_additivity: NonAdditivity,
     /// A sphere, by index, on which a force was not finite.
     pub lost: Option<u32>,
     /// Whether some forces are held constant for a time.
@@ -110,6 +113,7 @@ impl Flights {
             components,
             growth: None,
             wells: None,
+            non_additivity: system.material_pairs.non_additivity.clone(),
             lost: None,
             hold_forces,
             forces_vary,

@@ -58,7 +58,7 @@ pub(super) fn impacts_beside(timeline: &Timeline, group: &Group, found: &[Bodies
         for neighbour in near.others(slot) {
             let other = Member::at(&timeline.flights, neighbour.slot(), group.time);
             let shift = timeline.neighbours.shift_of(slot, neighbour);
-            let radius_sum = comes.species.radius + other.species.radius;
+            let radius_sum = timeline.flights.contact_distance([&comes.species, &other.species]);
             let gap = (other.position + shift - comes.position).norm() - radius_sum;
             let is_near = gap <= RESOLVED_PATH * radius_sum && !other.species.is_stepped;
             if is_near && is_new(&other.index) {
@@ -97,7 +97,7 @@ impl Search<'_> {
             let other = self.state_of(neighbour.slot(), other_index);
             let shift = timeline.neighbours.shift_of(member.slot, neighbour);
             let offset = other.position + shift - member.position;
-            let radius_sum = member.species.radius + other.species.radius;
+            let radius_sum = flights.contact_distance([&member.species, &other.species]);
             let gap = offset.norm() - radius_sum;
             if gap > RESOLVED_PATH * radius_sum || group.has(bodies) {
                 continue;

@@ -27,7 +27,9 @@ pub(crate) fn answer_growing_pair(
     let meeting = MeetingPair::at(timeline, context, slots, time);
     let MeetingPair { slots, masses, positions, normal, .. } = meeting;
     let flights = &timeline.flights;
-    let growth_speed: f64 = slots.iter().map(|&it| flights.species_of(it).growth_speed).sum();
+    let species = slots.map(|slot| flights.species_of(slot));
+    let factor = flights.distance_factor(species);
+    let growth_speed: f64 = species.iter().map(|it| factor * it.growth_speed).sum();
     let approach_speed = growth_speed - meeting.relative_velocity().dot(normal);
     // A graze may turn out, by rounding, not to close.
     let impulse = 2.0 * reduced_mass(masses) * approach_speed.max(0.0);
@@ -35,7 +37,7 @@ pub(crate) fn answer_growing_pair(
     if impulse > 0.0 {
         let before = meeting.velocities;
         let account = account_of_pair(before, velocities, masses, approach_speed, 1.0);
-        let point = positions[0] + flights.radius_at(slots[0], time) * normal;
+        let point = positions[0] + factor * flights.radius_at(slots[0], time) * normal;
         let [first, second] = slots.map(|slot| context.id_of(timeline, slot));
         let impact = Impact {
             time: context.since_start(time),

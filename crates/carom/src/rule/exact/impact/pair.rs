@@ -178,7 +178,8 @@ impl PairImpact {
         let species = slots.map(|slot| timeline.flights.species_of(slot));
         let [first, second] = slots.map(|slot| context.id_of(timeline, slot));
         let friction = self.friction.as_ref().map(|friction| &friction.0);
-        let point = self.places[0] + species[0].radius * self.normal;
+        let [radius, _] = timeline.flights.contact_radii(species);
+        let point = self.places[0] + radius * self.normal;
         let impact = Impact {
             time: context.since_start(self.time),
             between: BodyPair::Spheres(first, second),

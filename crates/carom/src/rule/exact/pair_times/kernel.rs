@@ -72,10 +72,18 @@ impl PairQuery<'_> {
                 dispatch!(level, simd => PairKernel::<{ 0 $(| $case)* }>::of(self).result(simd))
             };
         }
-        if self.timeline.flights.growth.is_some() {
+        let flights = &self.timeline.flights;
+        if !flights.non_additivity.is_none() {
+            return match (flights.growth, neighbours.images()) {
+                (Some(_), _) => run!(IMAGES, ITSELF, SPECIES, GROWS, FACTORS),
+                (None, Images::Sliding) => run!(IMAGES, ITSELF, SPECIES, SLIDES, FACTORS),
+                _ => run!(IMAGES, ITSELF, FALLS, SPECIES, FACTORS),
+            };
+        }
+        if flights.growth.is_some() {
             return run!(IMAGES, ITSELF, SPECIES, GROWS);
         }
-        if self.timeline.flights.wells.is_some() {
+        if flights.wells.is_some() {
             return run!(IMAGES, ITSELF, FALLS, SPECIES, WELLS);
         }
         match (falls, neighbours.finds_itself(), neighbours.images()) {
@@ -100,21 +108,23 @@ struct LaneResult<S: Simd> {
 }
 
 /// Cases of neighbours: an image, the sphere itself, falling, of another species.
-const IMAGES: u8 = 1;
-const ITSELF: u8 = 2;
-const FALLS: u8 = 4;
-const SPECIES: u8 = 8;
+const IMAGES: u16 = 1;
+const ITSELF: u16 = 2;
+const FALLS: u16 = 4;
+const SPECIES: u16 = 8;
 /// Images are recognised by the positions of their spheres, none of which falls.
-const NEAREST: u8 = 16;
+const NEAREST: u16 = 16;
 /// Radii grow.
-const GROWS: u8 = 32;
+const GROWS: u16 = 32;
 /// Images slide, as those of a box in steady shear.
-const SLIDES: u8 = 64;
+const SLIDES: u16 = 64;
 /// There are wells around spheres.
-const WELLS: u8 = 128;
+const WELLS: u16 = 128;
+/// Contact distances of species have factors.
+const FACTORS: u16 = 256;
 
 /// A query where only these `CASES` occur.
-struct PairKernel<'a, const CASES: u8> {
+struct PairKernel<'a, const CASES: u16> {
     query: &'a PairQuery<'a>,
     body: &'a Body,
     species: &'a Species,
@@ -122,7 +132,7 @@ struct PairKernel<'a, const CASES: u8> {
     here: DVec3,
 }
 
-impl<'a, const CASES: u8> PairKernel<'a, CASES> {
+impl<'a, const CASES: u16> PairKernel<'a, CASES> {
     #[inline(always)]
     fn of(query: &'a PairQuery<'a>) -> Self {
         let flights = &query.timeline.flights;
@@ -215,13 +225,18 @@ impl<'a, const CASES: u8> PairKernel<'a, CASES> {
         let (mut radius_sum, mut is_alike) = (all(species.radius + species.radius), is_there);
         if covers::<CASES>(SPECIES) {
             let theirs = others.map(|other| self.species_of(other));
-            radius_sum = all(species.radius) + Lanes::each(simd, theirs.map(|it| it.radius));
+            radius_sum = if covers::<CASES>(FACTORS) {
+                let distance = |other| timeline.flights.contact_distance([*species, other]);
+                Lanes::each(simd, theirs.map(distance))
+            } else {
+                all(species.radius) + Lanes::each(simd, theirs.map(|it| it.radius))
+            };
             let alike = theirs.map(|other| f64::from(species.flies_like(other)));
             is_alike = is_there & all(0.0).is_less(Lanes::each(simd, alike));
         }
         if covers::<CASES>(GROWS) {
-            let theirs = others.map(|other| self.species_of(other).growth_speed);
-            let growth_speed = all(species.growth_speed) + Lanes::each(simd, theirs);
+            let speeds = others.map(|other| self.growth_speed_with(self.species_of(other)));
+            let growth_speed = Lanes::each(simd, speeds);
             let grown = Relative { start, offset, velocity };
             return self.test_growing(simd, four, is_alike, grown, [radius_sum, growth_speed]);
         }
@@ -280,6 +295,16 @@ impl<'a, const CASES: u8> PairKernel<'a, CASES> {
         LaneResult { time, is_near: all(1.0).is_less(all(0.0)) }
     }
 
+    /// Returns the speed at which the contact distance of the sphere and one of another species grows \[m/s\].
+    #[inline(always)]
+    fn growth_speed_with(&self, other: &Species) -> f64 {
+        if covers::<CASES>(FACTORS) {
+            let factor = self.query.timeline.flights.distance_factor([self.species, other]);
+            return factor * self.species.growth_speed + factor * other.growth_speed;
+        }
+        self.species.growth_speed + other.growth_speed
+    }
+
     /// Returns the time on the world's clock at which radii were those of the species \[s\].
     fn growing_since(&self) -> f64 {
         self.query.timeline.flights.growth.map_or(0.0, |growth| growth.since)
@@ -315,11 +340,16 @@ impl<'a, const CASES: u8> PairKernel<'a, CASES> {
         if covers::<CASES>(SLIDES) {
             relative.velocity = relative.velocity + image_velocity.into();
         }
-        let mut radius_sum = self.species.radius + self.species_of(other).radius;
+        let their_species = self.species_of(other);
+        let mut radius_sum = if covers::<CASES>(FACTORS) {
+            flights.contact_distance([self.species, their_species])
+        } else {
+            self.species.radius + their_species.radius
+        };
         let Relative { start, offset, velocity } = relative;
         let mut growth_speed = 0.0;
         if covers::<CASES>(GROWS) {
-            growth_speed = self.species.growth_speed + self.species_of(other).growth_speed;
+            growth_speed = self.growth_speed_with(their_species);
             radius_sum += growth_speed * (start - self.growing_since());
         }
         let only_touch = only_touch([self.body, other], &relative, [radius_sum, growth_speed]);
@@ -342,7 +372,7 @@ impl<'a, const CASES: u8> PairKernel<'a, CASES> {
 }
 
 #[inline(always)]
-const fn covers<const CASES: u8>(case: u8) -> bool {
+const fn covers<const CASES: u16>(case: u16) -> bool {
     CASES & case != 0
 }
 

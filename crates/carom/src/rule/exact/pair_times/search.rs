@@ -7,7 +7,7 @@ use super::kernel::{Meeting, PairQuery};
 use crate::contact_time;
 use crate::detect::contact::Bodies;
 use crate::rule::exact::events::NextEvents;
-use crate::rule::exact::flights::{Body, Species};
+use crate::rule::exact::flights::{Body, Flights, Species};
 use crate::rule::exact::neighbours::{Neighbour, NeighbourBuffer};
 use crate::rule::exact::timeline::Timeline;
 
@@ -194,9 +194,8 @@ impl Neighbourhood {
         let flights = &timeline.flights;
         let shift = timeline.neighbours.shift_of(slot, neighbour);
         let offset = flights.state_of(neighbour.slot(), self.time).0 + shift - self.position;
-        let radius_sum =
-            flights.species_of(slot).radius + flights.species_of(neighbour.slot()).radius;
-        let reach = radius_sum * (1.0 + self.margin);
+        let species = [slot, neighbour.slot()].map(|slot| flights.species_of(slot));
+        let reach = flights.contact_distance(species) * (1.0 + self.margin);
         offset.length_squared() <= reach * reach
     }
 }
@@ -219,7 +218,8 @@ fn time_of_meeting(timeline: &Timeline, slot: u32, neighbour: Neighbour) -> f64 
     let end = end.min(other_end);
     if end < f64::INFINITY {
         let [reach, other_reach] = slots.map(|slot| flights.reach_of(slot, end));
-        if reach.misses_sphere(&other_reach, shift) {
+        let beyond = flights.distance_factor(species) - 1.0;
+        if reach.misses_sphere(&other_reach, beyond, shift) {
             return f64::INFINITY;
         }
     }
@@ -231,10 +231,10 @@ fn time_of_meeting(timeline: &Timeline, slot: u32, neighbour: Neighbour) -> f64 
         return if is_too_late { f64::INFINITY } else { time };
     }
     let time = if index < other_index {
-        time_of_contact(bodies, species, shift)
+        time_of_contact(flights, bodies, species, shift)
     } else {
         // In the order of ids: the opposite order might round differently.
-        time_of_contact([bodies[1], bodies[0]], [species[1], species[0]], -shift)
+        time_of_contact(flights, [bodies[1], bodies[0]], [species[1], species[0]], -shift)
     };
     let is_too_late = are_stepped != [false; 2] && time > end;
     if is_too_late { f64::INFINITY } else { time }
@@ -250,20 +250,25 @@ fn time_of_contact_on_curves(timeline: &Timeline, slots: [u32; 2], shift: DVec3)
     if end < start {
         return f64::INFINITY;
     }
-    let radius_sum: f64 = slots.iter().map(|&slot| flights.species_of(slot).radius).sum();
-    let delay = contact_time::tracks(&first, &second.shifted(shift), radius_sum, end - start);
+    let distance = flights.contact_distance(slots.map(|slot| flights.species_of(slot)));
+    let delay = contact_time::tracks(&first, &second.shifted(shift), distance, end - start);
     delay.map_or(f64::INFINITY, |delay| start + delay)
 }
 
 /// Time at which two spheres that fly differently meet, on the world's clock \[s\]; infinite if never. The search
 /// has no end time, so that a known horizon never changes a bit of the result.
-fn time_of_contact(bodies: [&Body; 2], species: [&Species; 2], shift: DVec3) -> f64 {
+fn time_of_contact(
+    flights: &Flights,
+    bodies: [&Body; 2],
+    species: [&Species; 2],
+    shift: DVec3,
+) -> f64 {
     let start = bodies[0].time.max(bodies[1].time);
     let first = bodies[0].flight_from(species[0], start);
     let mut second = bodies[1].flight_from(species[1], start);
     second.position += shift;
-    let radius_sum = species[0].radius + species[1].radius;
-    match contact_time::sphere_sphere(&first, &second, radius_sum, f64::INFINITY) {
+    let distance = flights.contact_distance(species);
+    match contact_time::sphere_sphere(&first, &second, distance, f64::INFINITY) {
         Some(delay) => start + delay,
         None => f64::INFINITY,
     }
