@@ -1,6 +1,7 @@
 //! Replaces generators by their spheres and colliders.
 
 use crate::error::SceneError;
+use crate::materials::MaterialNumbers;
 use crate::scene::Scene;
 
 impl Scene {
@@ -15,9 +16,10 @@ impl Scene {
         scene.simulation.allow_overlap = true;
         // Springs may refer to spheres that are not yet added.
         let springs = std::mem::take(&mut scene.springs);
+        let materials = MaterialNumbers::of(self);
         for (i, generator) in self.generators.iter().enumerate() {
             let path = format!("generators[{i}].{}", generator.kind());
-            let spheres = generator.spheres(&scene.world()?, &path);
+            let spheres = generator.spheres(&scene.world()?, &path, &materials);
             scene.spheres.extend(spheres.map_err(|problem| problem.in_code(&self.name))?);
         }
         scene.springs = springs;

@@ -218,6 +218,7 @@ fn physical(pair: &MaterialPair, [first, second]: [u8; 2]) -> carom::MaterialPai
         pair.tangential_restitution,
     ));
     physical.restitution = pair.restitution;
+    physical.non_additivity = pair.non_additivity;
     physical.restitution_law = pair.restitution_law.map(Into::into);
     physical
 }

@@ -153,3 +153,32 @@ fn a_ball_of_a_material_bounces_as_its_pair_says() {
     let speed = (2.0_f64 * 10.0 * 0.9).sqrt();
     assert!((at(3.0) - law.at(speed)).abs() < 1e-12, "{found:?}");
 }
+
+#[test]
+fn random_fillings_keep_the_distances_of_pairs_of_materials() {
+    let text = |non_additivity: f64| {
+        format!(
+            "name = \"two fillings\"\n[materials.one]\n[materials.other]\n\
+             [[material_pairs]]\nmaterials = [\"other\", \"one\"]\nnon_additivity = {non_additivity}\n\
+             [[generators]]\nrandom = {{ count = 40, min = [0, 0, 0], max = [10, 10, 10], seed = 3, \
+             sphere = {{ radius = 0.5, material = \"one\" }} }}\n\
+             [[generators]]\nrandom = {{ count = 40, min = [0, 0, 0], max = [10, 10, 10], seed = 4, \
+             sphere = {{ radius = 0.3, material = \"other\" }} }}\n"
+        )
+    };
+    for non_additivity in [-0.5, 0.0, 0.8] {
+        let scene = carom_scene::Scene::from_toml(&text(non_additivity), "fillings").unwrap();
+        let worlds = [scene.world().unwrap(), scene.expanded().unwrap().world().unwrap()];
+        assert_eq!(worlds[0].state_hash(), worlds[1].state_hash());
+        let places = worlds[0].spheres().positions();
+        let distances =
+            places[..40].iter().flat_map(|one| places[40..].iter().map(|it| one.distance(*it)));
+        let least = distances.fold(f64::INFINITY, f64::min);
+        let allowed = 0.8 * (1.0 + non_additivity);
+        assert!(least > allowed, "{least}");
+        // Spheres that may sink into each other do.
+        assert!(non_additivity >= 0.0 || least < 0.8, "{least}");
+    }
+    let error = carom_scene::Scene::from_toml(&text(10.0), "fillings").unwrap_err();
+    assert!(error.to_string().contains("material_pairs[0].non_additivity"), "{error}");
+}

@@ -34,4 +34,9 @@ export interface Material extends MaterialCoefficients {
 export interface MaterialPair extends MaterialCoefficients {
   /** Names of the two materials. */
   materials: [string, string];
+  /**
+   * Non-additivity parameter D from -0.9 to 9: spheres touch where their centres are (1 + D) times
+   * the sum of their radii apart; default 0.
+   */
+  nonAdditivity?: number;
 }

@@ -24,9 +24,18 @@ use crate::scene::{Collider, Generator, Scene, Sphere};
 
 impl Generator {
     /// Creates the spheres of the generator. `world` holds the spheres and colliders before them.
-    pub(crate) fn spheres(&self, world: &World, path: &str) -> Result<Vec<Sphere>, Problem> {
+    pub(crate) fn spheres(
+        &self,
+        world: &World,
+        path: &str,
+        materials: &MaterialNumbers,
+    ) -> Result<Vec<Sphere>, Problem> {
         match self {
-            Self::Random { .. } => return self.scatter(world, path),
+            Self::Random { sphere, .. } => {
+                let path_of_sphere = format!("{path}.sphere");
+                let material = materials.number(sphere.material.as_deref(), &path_of_sphere)?;
+                return self.scatter(world, material, path);
+            }
             Self::DenseFluid(fluid) => {
                 check_count(self, path)?;
                 return dense_fluid::spheres(fluid, world, path);
@@ -120,7 +129,7 @@ pub(crate) fn fill(
     path: &str,
     materials: &MaterialNumbers,
 ) -> Result<(), Problem> {
-    let spheres = generator.spheres(world, path)?;
+    let spheres = generator.spheres(world, path, materials)?;
     let path = format!("{path}.sphere");
     spheres.iter().try_for_each(|sphere| add_sphere(world, sphere, &path, materials))
 }

@@ -17,7 +17,12 @@ const TRIES_PER_SPHERE: u32 = 10_000;
 
 impl Generator {
     /// Creates the spheres of a random filling; returns none for another generator.
-    pub(super) fn scatter(&self, world: &World, path: &str) -> Result<Vec<Sphere>, Problem> {
+    pub(super) fn scatter(
+        &self,
+        world: &World,
+        material: u8,
+        path: &str,
+    ) -> Result<Vec<Sphere>, Problem> {
         let Self::Random { count, min, max, seed, speed, radius_range, sphere } = self else {
             return Ok(Vec::new());
         };
@@ -38,7 +43,7 @@ impl Generator {
         })?;
         let mut numbers = Numbers::new((*seed).into());
         let corner = min + vector(sphere.position);
-        let mut placed = Placed::new(world);
+        let mut placed = Placed::new(world, material);
         let mut spheres = Vec::new();
         for _ in 0..*count {
             let radius = smallest + (largest - smallest) * numbers.unit();
@@ -57,7 +62,7 @@ impl Generator {
                 );
                 return Err(Problem::new(format!("{path}.count"), text));
             };
-            placed.add(center, radius);
+            placed.add(center, radius, material);
             let velocity = vector(sphere.velocity) + *speed * numbers.direction(dimensions);
             spheres.push(Sphere {
                 position: center.to_array(),
@@ -74,40 +79,66 @@ impl Generator {
 /// Spheres that are placed already.
 struct Placed<'a> {
     world: &'a World,
+    /// Factor of the contact distance with spheres of each material, and the largest one.
+    factors: Vec<f64>,
+    largest_factor: f64,
     /// Cells by size class: those of class k are 2^k m wide and hold spheres of at most that
     /// diameter.
     classes: BTreeMap<i32, Cells>,
 }
 
+#[derive(Clone, Copy)]
+struct PlacedSphere {
+    center: DVec3,
+    radius: f64,
+    material: u8,
+}
+
 /// Spheres of one size class by the cell of their centre.
 #[derive(Default)]
 struct Cells {
-    spheres: Vec<(DVec3, f64)>,
+    spheres: Vec<PlacedSphere>,
     by_cell: HashMap<[i64; 3], Vec<usize>>,
 }
 
 impl<'a> Placed<'a> {
-    fn new(world: &'a World) -> Self {
-        let mut placed = Self { world, classes: BTreeMap::new() };
+    /// Spheres of a world, beside which others of a material are placed.
+    fn new(world: &'a World, material: u8) -> Self {
+        let mut factors = vec![1.0; usize::from(u8::MAX) + 1];
+        for pair in world.material_pairs() {
+            let [first, second] = pair.materials;
+            for [one, other] in [[first, second], [second, first]] {
+                if one == material {
+                    factors[usize::from(other)] = 1.0 + pair.non_additivity;
+                }
+            }
+        }
+        let largest_factor = factors.iter().copied().fold(1.0, f64::max);
+        let mut placed = Self { world, factors, largest_factor, classes: BTreeMap::new() };
         let spheres = world.spheres();
-        for (&center, &radius) in spheres.positions().iter().zip(spheres.radii()) {
-            placed.add(center, radius);
+        let bodies = spheres.positions().iter().zip(spheres.radii()).enumerate();
+        for (index, (&center, &radius)) in bodies {
+            placed.add(center, radius, spheres.materials().get(index).copied().unwrap_or(0));
         }
         placed
     }
 
-    fn add(&mut self, center: DVec3, radius: f64) {
+    fn add(&mut self, center: DVec3, radius: f64, material: u8) {
         let class = (2.0 * radius).log2().ceil() as i32;
         let Cells { spheres, by_cell } = self.classes.entry(class).or_default();
         by_cell.entry(cell(center, class)).or_default().push(spheres.len());
-        spheres.push((center, radius));
+        spheres.push(PlacedSphere { center, radius, material });
     }
 
     fn is_free(&self, center: DVec3, radius: f64) -> bool {
-        let is_apart = |&(other, r): &(DVec3, f64)| center.distance(other) > radius + r;
+        let is_apart = |other: &PlacedSphere| {
+            let factor = self.factors[usize::from(other.material)];
+            center.distance(other.center) > factor * (radius + other.radius)
+        };
         !self.world.meets_collider(center, radius)
             && self.classes.iter().all(|(&class, cells)| {
-                let reach = DVec3::splat(radius + 0.5 * 2f64.powi(class));
+                let reach = self.largest_factor * (radius + 0.5 * 2f64.powi(class));
+                let reach = DVec3::splat(reach);
                 let (low, high) = (cell(center - reach, class), cell(center + reach, class));
                 let count = (0..3).map(|axis| high[axis].saturating_sub(low[axis]) as f64 + 1.0);
                 // A sphere far larger than the cells overlaps more cells than there are spheres:
@@ -122,7 +153,7 @@ impl<'a> Placed<'a> {
 
 impl Cells {
     /// Iterates over the spheres in a block of cells.
-    fn between(&self, low: [i64; 3], high: [i64; 3]) -> impl Iterator<Item = &(DVec3, f64)> {
+    fn between(&self, low: [i64; 3], high: [i64; 3]) -> impl Iterator<Item = &PlacedSphere> {
         (low[0]..=high[0])
             .flat_map(move |x| (low[1]..=high[1]).map(move |y| (x, y)))
             .flat_map(move |(x, y)| (low[2]..=high[2]).map(move |z| [x, y, z]))

@@ -76,6 +76,11 @@ pub struct MaterialPair {
     #[schemars(range(min = 0.0, max = 1.0))]
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tangential_restitution: Option<f64>,
+    /// Non-additivity parameter D from -0.9 to 9: spheres touch where their centres are (1 + D) times the sum of their
+    /// radii apart.
+    #[schemars(range(min = -0.9, max = 9.0))]
+    #[serde(default)]
+    pub non_additivity: f64,
 }
 
 /// Reads the names of a pair; the error of lists of another length speaks of names.

@@ -104,6 +104,8 @@ class MaterialPair(Part):
             gives it.
         tangential_restitution: Coefficient of tangential restitution in [0, 1]. If missing, the
             combine rule gives it.
+        non_additivity: Non-additivity parameter D from -0.9 to 9: spheres touch where their centres
+            are (1 + D) times the sum of their radii apart.
     """
 
     materials: TwoNames
@@ -113,3 +115,4 @@ class MaterialPair(Part):
     rolling_friction: NonNegative | None = None
     spinning_friction: NonNegative | None = None
     tangential_restitution: Restitution | None = None
+    non_additivity: Restitution = 0.0
