@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 use carom::{BodyPair, Rule, World};
 
 use super::claim::{Claim, Expected, Measured, Outcome, Tolerance};
-use super::{dense, diffusion, equation};
+use super::{dense, diffusion, equation, non_additive};
 use crate::gas::{COLLISIONS_TO_EQUILIBRIUM, Filling, Speeds, gas, run_collisions};
 
 /// Number of spheres: fills a face-centred cubic lattice of 10 cells along an edge.
@@ -40,6 +40,7 @@ pub fn claims() -> Vec<Claim> {
         ),
     ]);
     claims.extend(dense::fluids());
+    claims.extend(non_additive::claims());
     claims.extend(diffusion::claims());
     claims.extend([0.2, 0.4, 0.6, 0.7, 0.8, 0.9].map(accurate_pressure));
     claims

@@ -25,6 +25,7 @@ mod granular;
 mod lyapunov;
 mod motion;
 mod mutual_gravity;
+mod non_additive;
 mod packing;
 mod plane;
 mod report;

@@ -53,6 +53,8 @@ pub struct Material {
     pub law: Option<&'static str>,
     /// Whether balls and walls have different materials, with coefficients for their pair.
     pub has_pair: bool,
+    /// Non-additivity parameter of each two balls next to each other in the list, which are of two materials.
+    pub non_additivity: Option<f64>,
     pub friction: Option<f64>,
     pub rolling: Option<f64>,
     pub spinning: Option<f64>,
@@ -179,6 +181,7 @@ fn sensible(mut drawn: Drawn) -> Drawn {
     }
     if drawn.choices.iter().any(|it| it.starts_with("pair_potential")) {
         drawn = elastic(unlinked(drawn));
+        drawn.material.non_additivity = None;
     }
     if drawn.growth.is_some() {
         drawn = growing(drawn);
@@ -237,12 +240,13 @@ fn unlinked(mut drawn: Drawn) -> Drawn {
     drawn.rule = "exact";
     drawn.forces.retain(|it| it.starts_with("gravity"));
     (drawn.springs, drawn.emitter) = (None, None);
-    let Material { restitution, law, .. } = drawn.material;
+    let Material { restitution, law, non_additivity, .. } = drawn.material;
     let (rolling, spinning) = (None, None);
     drawn.material = Material {
         restitution,
         law,
         has_pair: false,
+        non_additivity,
         friction: None,
         rolling,
         spinning,
@@ -306,17 +310,19 @@ fn material() -> impl Strategy<Value = Material> {
     (
         select(&[1.0, 1.0, 0.95, 0.7, 0.3, 0.0][..]),
         weighted(0.1, select(&LAWS[..])),
-        proptest::bool::weighted(0.1),
+        (proptest::bool::weighted(0.1), weighted(0.1, select(&[-0.6, -0.1, 0.2, 0.7][..]))),
         weighted(0.3, 0.01..1.0),
         weighted(0.3, 0.001..0.1),
         weighted(0.2, 0.001..0.1),
         weighted(0.2, 0.0..1.0),
     )
-        .prop_map(|(restitution, law, has_pair, friction, rolling, spinning, tangential)| {
+        .prop_map(|(restitution, law, pairs, friction, rolling, spinning, tangential)| {
+            let (has_pair, non_additivity) = pairs;
             Material {
                 restitution,
                 law,
                 has_pair,
+                non_additivity,
                 friction,
                 rolling: rolling.filter(|_| friction.is_some()),
                 spinning: spinning.filter(|_| friction.is_some()),

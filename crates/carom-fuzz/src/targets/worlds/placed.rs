@@ -8,18 +8,24 @@ pub struct Placed<'a> {
     pub position: Vector,
     pub radius: f64,
     pub ball: &'a Ball,
+    /// Whether it is of the second material.
+    pub is_other: bool,
 }
 
 /// Returns the balls with places in a part of the room, without those that overlap an earlier one
-/// or leave the container.
-pub fn placed(balls: &[Ball], crowding: f64) -> Vec<Placed<'_>> {
+/// or leave the container. With a non-additivity, every second ball in the list is of another material.
+pub fn placed(balls: &[Ball], crowding: f64, non_additivity: Option<f64>) -> Vec<Placed<'_>> {
     let mut placed: Vec<Placed> = Vec::new();
-    for ball in balls {
+    for (number, ball) in balls.iter().enumerate() {
+        let is_other = non_additivity.is_some() && number % 2 == 1;
+        let factor = |other: &Placed| {
+            1.0 + non_additivity.filter(|_| other.is_other != is_other).unwrap_or(0.0)
+        };
         let radius = 10f64.powf(ball.radius);
         let length = distance(ball.place, [0.0; 3]);
         let position = match placed.last() {
             Some(last) if ball.touches && length > 0.1 => {
-                let distance = (radius + last.radius) / length;
+                let distance = factor(last) * (radius + last.radius) / length;
                 sum(last.position, scaled(ball.place, distance))
             }
             _ => scaled(ball.place, crowding * (HALF - radius)),
@@ -28,10 +34,11 @@ pub fn placed(balls: &[Ball], crowding: f64) -> Vec<Placed<'_>> {
         let is_inside = distance(position, [0.0; 3]) < HALF - radius;
         // Touching counts, overlapping by more than rounding does not.
         let is_free = placed.iter().all(|other| {
-            distance(position, other.position) > (radius + other.radius) * (1.0 - 1e-14)
+            let reach = factor(other) * (radius + other.radius);
+            distance(position, other.position) > reach * (1.0 - 1e-14)
         });
         if is_inside && is_free {
-            placed.push(Placed { position, radius, ball });
+            placed.push(Placed { position, radius, ball, is_other });
         }
     }
     placed

@@ -12,16 +12,16 @@ const FRAME_TIME: f64 = 3.0 / 256.0;
 /// Returns the scene file of a world.
 pub fn written(drawn: &Drawn) -> String {
     let coefficients = material(&drawn.material);
-    let has_pair = drawn.material.has_pair;
-    let of = |name: &str| if has_pair { format!("material = \"{name}\"\n") } else { String::new() };
-    let own = coefficients.clone() + &of("ball");
+    let named = drawn.material.has_pair || drawn.material.non_additivity.is_some();
+    let of = |name: &str| if named { format!("material = \"{name}\"\n") } else { String::new() };
+    let balls = ["ball", "other"].map(|name| coefficients.clone() + &of(name));
     let material = coefficients + &of("wall");
-    let placed = placed(&drawn.balls, drawn.crowding);
+    let placed = placed(&drawn.balls, drawn.crowding, drawn.material.non_additivity);
     let pieces = [
-        if has_pair { PAIR.to_owned() } else { String::new() },
+        if named { pairs(&drawn.material) } else { String::new() },
         simulation(drawn),
         drawn.forces.iter().map(|it| format!("[[forces]]\n{it}\n")).collect(),
-        placed.iter().map(|it| ball(drawn, it, &own)).collect(),
+        placed.iter().map(|it| ball(drawn, it, &balls[usize::from(it.is_other)])).collect(),
         drawn.springs.as_ref().map_or(String::new(), |it| springs(it, placed.len())),
         around(drawn, &material),
         if drawn.has_floor { floor(drawn, &material) } else { String::new() },
@@ -31,9 +31,20 @@ pub fn written(drawn: &Drawn) -> String {
     pieces.concat()
 }
 
-/// Balls of one material and walls of another; their pair has coefficients that neither has.
-const PAIR: &str = "[materials]\nball = {}\nwall = {}\n[[material_pairs]]\n\
-                    materials = [\"ball\", \"wall\"]\nrestitution = 0.6\nfriction = 0.2\n";
+/// Balls of one material or two and walls of another; pairs have coefficients that neither has.
+fn pairs(material: &Material) -> String {
+    let mut text = "[materials]\nball = {}\nother = {}\nwall = {}\n".to_owned();
+    if material.has_pair {
+        text += "[[material_pairs]]\nmaterials = [\"ball\", \"wall\"]\nrestitution = 0.6\nfriction = 0.2\n";
+    }
+    if let Some(non_additivity) = material.non_additivity {
+        text += &format!(
+            "[[material_pairs]]\nmaterials = [\"ball\", \"other\"]\nnon_additivity = {non_additivity:?}\n\
+             friction = 0.0\nrolling_friction = 0.0\nspinning_friction = 0.0\n"
+        );
+    }
+    text
+}
 
 fn material(material: &Material) -> String {
     let Material { restitution, law, friction, rolling, spinning, tangential, .. } = *material;
@@ -76,7 +87,7 @@ fn velocity_of_all(drawn: &Drawn) -> Vector {
 }
 
 fn ball(drawn: &Drawn, placed: &Placed, material: &str) -> String {
-    let Placed { position, radius, ball } = placed;
+    let Placed { position, radius, ball, .. } = placed;
     let (mass, velocity) = (10f64.powf(ball.mass), sum(ball.velocity, velocity_of_all(drawn)));
     let spin = ball.spin.map_or(String::new(), |it| format!("angular_velocity = {it:?}\n"));
     let growth =
