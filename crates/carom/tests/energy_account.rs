@@ -277,3 +277,25 @@ fn emitted_and_retired_balls_are_an_entry() {
         }
     }
 }
+
+/// A ball appears in another one that a spring holds: the spring is stretched as they are moved apart.
+#[test]
+fn what_overlaps_takes_the_work_of_its_spring_from_the_correction() {
+    for size in [1.0 / 1048576.0, 1.0, 1048576.0] {
+        let mut world = world(exact());
+        let ball = |place: DVec3, radius: f64, mass: f64| {
+            Sphere::new(size * place, size * radius).with_mass(mass).with_restitution(0.0)
+        };
+        let held = world.add_sphere(ball(vec(0.16, 0.43, 0.0), 0.5, 2e-4)).unwrap();
+        let holding = world.add_sphere(ball(vec(-0.35, -0.51, 0.0), 0.5, 1.0)).unwrap();
+        let length = size * vec(0.51, 0.94, 0.0).length();
+        world.add_spring(Spring::between(held, holding, length).with_stiffness(1.0)).unwrap();
+        let thrown = ball(DVec3::ZERO, 0.1, 1.0).with_velocity(size * vec(0.0, 2.0, 1.0));
+        world.add_sphere(thrown).unwrap();
+        let (account, remainder) = account_of_run(&mut world, 1, 1.0 / 64.0);
+        let energy = size * size * 2.5;
+        assert!(account.correction > 1e-3 * energy, "{account:?}");
+        // Rounding of a step, and of sums of the energies.
+        assert!(remainder.abs() < 1e-12 * energy, "{remainder:e} of {energy:e}, {account:?}");
+    }
+}

@@ -17,6 +17,7 @@ mod answer;
 mod contacts;
 mod context;
 mod course;
+mod displacement;
 mod events;
 mod features;
 mod flights;

@@ -6,6 +6,7 @@ use std::iter::repeat;
 use glam::DVec3;
 
 use super::account::account_of;
+use super::closings::{account_for_closings, states_of, work_of_corrections};
 use super::follow_up;
 use super::friction::{self, FrictionImpulses};
 use super::group_log;
@@ -89,7 +90,7 @@ pub(super) fn answer(
     let Ok(supports) = found else {
         return refuse(timeline, context, &group);
     };
-    account_for_closings(timeline, context, &group, &before);
+    account_for_closings(timeline, context, &group, before);
     // Impacts without persistent contacts may be many: their number is that of flights.
     let lasting = if supports.is_empty() { 0 } else { group.members.len() as u64 };
     timeline.budget.charge(&indices_of(&group), spent, UNITS_PER_MEMBER * lasting);
@@ -144,45 +145,6 @@ fn gather(
     piece_end::settle(timeline, context, &mut group);
     let work = work_of_corrections(&group, &before);
     (group, work)
-}
-
-/// Centre and velocity of each member, where a surface that moves touches one; else nothing.
-fn states_of(group: &Group) -> Vec<[DVec3; 2]> {
-    let gets_work = group.touches.iter().any(Touch::does_work);
-    let states = || group.members.iter().map(Member::state).collect();
-    if gets_work { states() } else { Vec::new() }
-}
-
-/// The work \[J\] of moving surfaces on spheres that were moved onto them, from these states.
-fn work_of_corrections(group: &Group, before: &[[DVec3; 2]]) -> f64 {
-    let gained = |(member, &[position, velocity]): (&Member, &[DVec3; 2])| {
-        let change = 0.5 * (member.velocity - velocity).dot(member.velocity + velocity);
-        let fallen = member.species.acceleration.dot(member.position - position);
-        member.species.mass * (change - fallen)
-    };
-    group.members.iter().zip(before).map(gained).sum()
-}
-
-/// Accounts for the energy that contacts took as they began to persist, since the members were so: closings too small
-/// for an impact end without one.
-fn account_for_closings(
-    timeline: &mut Timeline,
-    context: &StepContext,
-    group: &Group,
-    before: &[Member],
-) {
-    if group.touches.iter().any(Touch::does_work) {
-        let states: Vec<[DVec3; 2]> = before.iter().map(Member::state).collect();
-        timeline.flights.add_collider_work(work_of_corrections(group, &states));
-        return;
-    }
-    let spheres = context.system.spheres;
-    let gained = |(after, before): (&Member, &Member)| {
-        let moment = spheres.moment_of_inertia(after.index as usize);
-        after.gained_since(before, moment)
-    };
-    let gained = group.members.iter().zip(before).map(gained).sum();
-    timeline.flights.add_contact_work(gained);
 }
 
 /// Limits the solvers to the work that the group may take. Returns that work.

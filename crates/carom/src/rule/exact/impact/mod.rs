@@ -1,6 +1,7 @@
 //! Impacts: what happens when bodies meet, and what that changes.
 
 mod account;
+mod closings;
 mod follow_up;
 mod friction;
 mod group;

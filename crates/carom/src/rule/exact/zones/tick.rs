@@ -8,9 +8,9 @@ use glam::DVec3;
 use crate::bodies::Motion;
 use crate::detect::contact::Bodies;
 use crate::detect::sphere_surface;
-use crate::forces::{self, SphereState};
 use crate::id::SphereId;
 use crate::rule::exact::context::StepContext;
+use crate::rule::exact::displacement::{Displacement, energy_gained};
 use crate::rule::exact::events::{NextEvents, Prediction};
 use crate::rule::exact::neighbours::NeighbourBuffer;
 use crate::rule::exact::persistent::flies_with;
@@ -19,7 +19,6 @@ use crate::rule::exact::predict::moving::Around;
 use crate::rule::exact::timeline::Timeline;
 use crate::rule::exact::zones::zone::Stepped;
 use crate::rule::periodic;
-use crate::system::System;
 
 /// A sphere touches surfaces that are nearer than this part of its radius: the solver leaves less.
 const NEAR: f64 = 0.01;
@@ -197,8 +196,8 @@ fn leave(
         }
     }
     if position != before {
-        let places = [before, position];
-        let gained = energy_gained(timeline, context.system, index, (places, velocity), now);
+        let moved = Displacement { index, from: before, to: position, velocity };
+        let gained = energy_gained(timeline, context.system, &[moved], now);
         context.report.energy_account.correction += gained;
     }
     timeline.flights.leave_zone(slot, [position, velocity], now);
@@ -209,34 +208,6 @@ fn leave(
     predict::predict(timeline, context, slot, now);
     timeline.zone.near.push(slot);
     context.report.zone_account.left += 1;
-}
-
-/// The potential energy \[J\] that the sphere with this index and velocity \[m/s\] gains as it is moved from one place to
-/// another \[m\] at `now` \[s\].
-fn energy_gained(
-    timeline: &Timeline,
-    system: &System,
-    index: u32,
-    (places, velocity): ([DVec3; 2], DVec3),
-    now: f64,
-) -> f64 {
-    let place = index as usize;
-    let (radius, mass) = (system.spheres.radius[place], system.spheres.mass[place]);
-    let [before, after] = places.map(|position| {
-        let state = SphereState { position, velocity, radius, mass };
-        forces::conservative_potential(system.forces, &state, now)
-    });
-    if !system.has_interactions() {
-        return after - before;
-    }
-    let slots = &timeline.flights.slot_of;
-    let states = slots.iter().map(|&slot| timeline.flights.state_of(slot, now));
-    let (mut positions, velocities): (Vec<DVec3>, Vec<DVec3>) = states.unzip();
-    let between = places.map(|position| {
-        positions[place] = position;
-        system.conservative_potential_between([&positions, &velocities], now)
-    });
-    after - before + between[1] - between[0]
 }
 
 /// Writes the velocities of spheres in a zone at `time` \[s\]: between ticks they change steadily.
