@@ -29,7 +29,8 @@ const AT_A_TIME: usize = 2;
 const SLOWEST: usize = 30;
 
 /// The tests of the physics that run on several numbers of threads.
-const ON_THREADS: [&str; 4] = ["contact_rule", "contact_shear", "exact", "gases_on_threads"];
+const ON_THREADS: [&str; 5] =
+    ["contact_rule", "contact_shear", "exact", "gases_on_threads", "non_additive"];
 
 /// Builds what tests run, but for most programs of the physics, which a part of its own builds: the
 /// programs of tests, which it returns, examples, the command, the libraries for C and Python.
