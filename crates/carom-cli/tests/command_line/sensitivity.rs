@@ -27,6 +27,17 @@ shape = "half-space"
 restitution = 0.8
 "#;
 
+/// A ball that meets two walls of its box at 0.9 s.
+const CORNER: &str = r#"
+[simulation]
+frame_time = 0.125
+[[spheres]]
+velocity = [1.0, 1.0, 0.0]
+radius = 0.1
+[[colliders]]
+shape = { container = { size = [2.0, 2.0, 2.0] } }
+"#;
+
 /// Runs the bounce for a second with derivatives by these numbers. Returns the names of the added columns, and
 /// their numbers in the last row of each ball.
 fn run(numbers: &[&str]) -> (Vec<String>, [Vec<f64>; 2]) {
@@ -115,10 +126,13 @@ fn a_number_that_derivatives_are_not_known_by_is_named() {
 #[test]
 fn where_there_is_no_derivative_the_run_ends_and_keeps_the_frames_before() {
     let folder = tempfile::tempdir().unwrap();
-    let table = path(&folder, "t.csv");
-    let arguments = ["run", "cradle", "--out", &table, "--sensitivity", "spheres.0.velocity"];
+    let (scene, table) = (path(&folder, "corner.toml"), path(&folder, "t.csv"));
+    std::fs::write(&scene, CORNER).unwrap();
+    let arguments = ["run", &scene, "--out", &table, "--sensitivity", "spheres.0.velocity"];
     let line = bad_line(&[&arguments[..], &["--rule", "contact"]].concat(), 1);
     assert!(line.contains("derivatives are not known of"), "{line}");
     let line = bad_line(&arguments, 1);
-    assert!(line.contains("derivative"), "{line}");
+    assert!(line.contains("sphere 0 has several impacts at 0.9 s at once"), "{line}");
+    // The names, and a row for each of the frames until 0.875 s.
+    assert_eq!(std::fs::read_to_string(&table).unwrap().lines().count(), 1 + 7);
 }
