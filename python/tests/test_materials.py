@@ -88,6 +88,27 @@ def test_a_law_gives_the_restitution_at_the_speed_of_an_impact() -> None:
     assert ratio == pytest.approx(0.5, rel=1e-12)
 
 
+def test_spheres_of_a_pair_with_a_non_additivity_meet_nearer_or_farther_than_their_radii() -> None:
+    def met(non_additivity: float) -> float:
+        pair = carom.MaterialPair(("a", "b"), non_additivity=non_additivity)
+        scene = carom.Scene(
+            name="pair",
+            materials={"a": carom.Material(), "b": carom.Material()},
+            material_pairs=[pair],
+            spheres=[
+                carom.Sphere(radius=1.0, material="a"),
+                carom.Sphere((20.0, 0.0, 0.0), radius=1.0, velocity=(-1.0, 0.0, 0.0), material="b"),
+            ],
+        )
+        assert list(carom.Scene.from_toml(scene.to_toml()).material_pairs) == [pair]
+        return float(scene.run(seconds=22).impacts["time"][0])
+
+    for non_additivity in (-0.5, 0.0, 2.0):
+        assert met(non_additivity) == pytest.approx(20 - 2 * (1 + non_additivity), rel=1e-12)
+    with pytest.raises(carom.CaromError, match=r"MaterialPair\.non_additivity"):
+        carom.MaterialPair(("a", "b"), non_additivity=-1.0)
+
+
 def test_wrong_values_are_refused_by_their_names() -> None:
     with pytest.raises(carom.CaromError, match=r"MaterialPair\.restitution"):
         carom.MaterialPair(("a", "b"), restitution=2.0)

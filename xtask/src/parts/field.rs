@@ -100,6 +100,7 @@ fn kind_of(property: &Value, schema: &Schema) -> String {
             bound("exclusiveMaximum"),
         ) {
             (Some(1.0), _, Some(_), _) => "FrequencyRatio",
+            (Some(-0.9), _, Some(_), _) => "NonAdditivity",
             (Some(_), _, Some(_), _) => "Restitution",
             (Some(_), ..) => "NonNegative",
             (_, Some(_), _, Some(_)) => "FieldOfView",

@@ -101,6 +101,10 @@ FrequencyRatio: TypeAlias = Annotated[
     float, Requirement("in [1, 2]", lambda value: 1 <= value <= 2)
 ]
 """A number in [1, 2]."""
+NonAdditivity: TypeAlias = Annotated[
+    float, Requirement("in [-0.9, 9]", lambda value: -0.9 <= value <= 9)
+]
+"""A number in [-0.9, 9]."""
 Count: TypeAlias = Annotated[int, _AT_LEAST_ONE, _IN_32_BITS]
 """A whole number >= 1."""
 Number: TypeAlias = Annotated[int, _IN_32_BITS]

@@ -9,7 +9,14 @@ from dataclasses import dataclass
 from typing import ClassVar, TypeAlias
 
 from carom._scene.parts.choices import Finish
-from carom._scene.parts.kinds import Color, NonNegative, Positive, Restitution, TwoNames
+from carom._scene.parts.kinds import (
+    Color,
+    NonAdditivity,
+    NonNegative,
+    Positive,
+    Restitution,
+    TwoNames,
+)
 from carom._scene.parts.part import Part
 
 
@@ -115,4 +122,4 @@ class MaterialPair(Part):
     rolling_friction: NonNegative | None = None
     spinning_friction: NonNegative | None = None
     tangential_restitution: Restitution | None = None
-    non_additivity: Restitution = 0.0
+    non_additivity: NonAdditivity = 0.0
