@@ -117,6 +117,9 @@ impl MaterialPair {
         let is_known = NON_ADDITIVITIES.contains(&self.non_additivity);
         let requirement = "from -0.9 to 9";
         validate::require(is_known, "non_additivity", requirement, self.non_additivity)?;
+        let is_possible = self.non_additivity == 0.0 || !self.friction.acts();
+        let requirement = "0 beside a friction of the pair";
+        validate::require(is_possible, "non_additivity", requirement, self.non_additivity)?;
         self.friction.validate()
     }
 }

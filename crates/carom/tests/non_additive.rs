@@ -418,12 +418,18 @@ fn what_is_not_built_is_refused_by_name() {
         let error = world.set_material_pairs([pair]).unwrap_err();
         assert!(error.to_string().contains("non_additivity"), "{error}");
     }
+    let rough = MaterialPair::new(1, 2).with_non_additivity(0.2).with_friction(0.3);
+    let error = world.set_material_pairs([rough]).unwrap_err();
+    assert!(error.to_string().contains("non_additivity"), "{error}");
     let rough = |material| sphere(3.0 * f64::from(material), 0.5, material).with_friction(0.3);
     let mut world = world_with(Settings::default(), 0.2);
     world.add_sphere(rough(1)).unwrap();
     world.add_sphere(sphere(6.0, 0.5, 2)).unwrap();
     let error = world.step(0.1).unwrap_err();
-    assert!(error.to_string().contains("friction"), "{error}");
+    assert!(
+        error.to_string().starts_with("sphere 0: `friction` must be 0 for a sphere"),
+        "{error}"
+    );
     // The pair can say that there is none.
     let smooth = MaterialPair::new(1, 2).with_non_additivity(0.2).with_friction(0.0);
     world.set_material_pairs([smooth]).unwrap();
