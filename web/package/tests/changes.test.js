@@ -83,7 +83,8 @@ spheres = [{ radius = 1, position = [0, 2, 0], velocity = [0, -4, 0], material =
 test("a pair of materials has its own restitution", () => {
   const world = World.fromScene(CUP);
   assert.deepEqual(world.materialPairs, []);
-  const pairs = [{ materials: ["slate", "ivory"], restitution: 0.25, rollingFriction: 0.5 }];
+  const given = { restitution: 0.25, rollingFriction: 0.5, nonAdditivity: 0 };
+  const pairs = [{ materials: ["slate", "ivory"], ...given }];
   world.setMaterialPairs(pairs);
   assert.deepEqual(world.materialPairs, pairs);
   assert.deepEqual(World.fromScene(world.toToml()).materialPairs, pairs);

@@ -5,7 +5,7 @@ use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize};
 
 use super::finish::Finish;
-use super::values::{Color, is_default};
+use super::values::Color;
 
 /// Fields that spheres and colliders of a material share; a body's own fields win.
 #[derive(Debug, Clone, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -79,7 +79,7 @@ pub struct MaterialPair {
     /// Non-additivity parameter D from -0.9 to 9: spheres touch where their centres are (1 + D) times the sum of their
     /// radii apart.
     #[schemars(range(min = -0.9, max = 9.0))]
-    #[serde(default, skip_serializing_if = "is_default")]
+    #[serde(default)]
     pub non_additivity: f64,
 }
 
