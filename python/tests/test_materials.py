@@ -97,7 +97,7 @@ def test_spheres_of_a_pair_with_a_non_additivity_meet_nearer_or_farther_than_the
             material_pairs=[pair],
             spheres=[
                 carom.Sphere(radius=1.0, material="a"),
-                carom.Sphere((20.0, 0.0, 0.0), radius=1.0, velocity=(-1.0, 0.0, 0.0), material="b"),
+                carom.Sphere(radius=1.0, position=(20, 0, 0), velocity=(-1, 0, 0), material="b"),
             ],
         )
         assert list(carom.Scene.from_toml(scene.to_toml()).material_pairs) == [pair]
