@@ -12,8 +12,8 @@ use crate::system::System;
 const CLASS_RATIO: f64 = 2.0;
 /// Smaller spheres than `CLASS_RATIO` to the minus this share the last class.
 const MAX_CLASSES: usize = 48;
-/// A class has a level of its own if there are so many more of the next smaller one: in cells of the larger ones, these
-/// would have too many neighbours.
+/// A class has its own level if the next smaller class has more than this many times as many spheres. In cells as wide
+/// as the larger spheres, each smaller sphere would have too many neighbours.
 const MANY_SMALLER: usize = 20;
 
 /// Constants of the flight and of the impacts of equal spheres.
