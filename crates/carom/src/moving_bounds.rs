@@ -3,6 +3,8 @@
 use glam::DVec3;
 
 use crate::collider_motion::MotionBounds;
+use crate::norm::Norm;
+use crate::surface::SurfaceMotion;
 
 /// Bounds of the motion of a collider within a short time.
 #[derive(Debug, Clone, Copy)]
@@ -25,6 +27,12 @@ impl MovingBounds {
         beside: f64::INFINITY,
         angle: f64::INFINITY,
     };
+
+    /// The bounds of a steady motion for a `length` of time \[s\].
+    pub fn steady(motion: &SurfaceMotion, length: f64) -> Self {
+        let [way, angle] = [motion.velocity, motion.angular_velocity].map(|it| length * it.norm());
+        Self { velocity: motion.velocity, way, beside: 0.0, angle }
+    }
 
     /// The bounds for a `length` of time \[s\] with this velocity at the start \[m/s\].
     pub fn within(length: f64, velocity: DVec3, bounds: &MotionBounds) -> Self {

@@ -248,12 +248,7 @@ mod tests {
             };
             let (radius, horizon) = (0.3, 0.05);
             let contact = sphere_surface(&flight, radius, &form, &motion, horizon);
-            let moving = MovingBounds {
-                velocity: along,
-                way: horizon * along.norm(),
-                beside: 0.0,
-                angle: horizon * angular_velocity.norm(),
-            };
+            let moving = MovingBounds::steady(&motion, horizon);
             let reach = Reach::of(flight, radius, horizon);
             let reach = reach.seen_from_moving(0.0, motion.origin, &moving);
             let is_out = reach.misses(&form, DVec3::ZERO);

@@ -74,10 +74,8 @@ pub(crate) fn sphere_surface_in_reach(
 ) -> Option<f64> {
     let mut reach = Reach::of(*flight, radius, horizon);
     if !motion.is_at_rest() {
-        let SurfaceMotion { origin, velocity, angular_velocity, .. } = *motion;
-        let [way, angle] = [velocity, angular_velocity].map(|rate| horizon * rate.norm());
-        let moving = MovingBounds { velocity, way, beside: 0.0, angle };
-        reach = reach.seen_from_moving(0.0, origin, &moving);
+        let moving = MovingBounds::steady(motion, horizon);
+        reach = reach.seen_from_moving(0.0, motion.origin, &moving);
     }
     match reach.misses(form, DVec3::ZERO) {
         true => None,
