@@ -35,6 +35,10 @@ def test_rough_balls_in_shear_move_under_contact_and_the_account_closes() -> Non
         ],
     )
     world = scene.world()
+    box = carom.Periodic([3.1] * 3, shear_rate=1.0, relative_velocities=True)
+    slow = [carom.Sphere(position=it, radius=0.5, velocity=(0, 0, 0.1)) for it in lattice]
+    same = carom.Scene(name="same", simulation=carom.Simulation(boundary=box), spheres=slow)
+    np.testing.assert_array_equal(same.world().velocities, world.velocities)
     before, total = world.kinetic_energy, 0.0
     for _ in range(50):
         world.step(dt=0.01)

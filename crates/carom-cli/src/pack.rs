@@ -105,8 +105,11 @@ fn scene_of(file: &Path, world: &World) -> Scene {
     let name = file.file_stem().unwrap_or_default().to_string_lossy();
     let mut scene = Scene::new(plain_name(&name));
     if let Boundary::Periodic { size } = world.settings().boundary {
-        scene.simulation.boundary =
-            scene::Boundary::Periodic { size: size.to_array(), shear_rate: 0.0 };
+        scene.simulation.boundary = scene::Boundary::Periodic {
+            size: size.to_array(),
+            shear_rate: 0.0,
+            relative_velocities: false,
+        };
     }
     let spheres = world.spheres();
     let sphere = |index: usize| {

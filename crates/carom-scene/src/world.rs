@@ -1,6 +1,6 @@
 //! Creates worlds from scenes.
 
-use carom::{Sides, World};
+use carom::{DVec3, Sides, SphereMotion, World};
 
 use crate::bodies::{add_sphere, collider, emitter};
 use crate::budget::Budget;
@@ -12,7 +12,7 @@ use crate::meshes;
 use crate::motion;
 use crate::overlap;
 use crate::requirement::check;
-use crate::scene::{Collider, Emitter, Force, Scene, Shape, Simulation};
+use crate::scene::{Boundary, Collider, Emitter, Force, Scene, Shape, Simulation};
 use crate::settings::settings_problem;
 use crate::springs;
 
@@ -59,6 +59,11 @@ pub(crate) fn build(scene: &Scene, budget: Budget) -> Result<World, Problem> {
         let path = format!("generators[{i}].{}", generator.kind());
         generate::fill(&mut world, generator, &path, &materials)?;
     }
+    if let Boundary::Periodic { shear_rate, relative_velocities: true, .. } =
+        scene.simulation.boundary
+    {
+        add_flow(&mut world, shear_rate)?;
+    }
     for (i, spring) in scene.springs.iter().enumerate() {
         springs::add(&mut world, spring, &format!("springs[{i}]"))?;
     }
@@ -71,6 +76,19 @@ pub(crate) fn build(scene: &Scene, budget: Budget) -> Result<World, Problem> {
     }
     check_step(scene, &world)?;
     Ok(world)
+}
+
+/// Adds the mean flow of a sheared box to the velocities of all spheres; `shear_rate` in \[1/s\].
+fn add_flow(world: &mut World, shear_rate: f64) -> Result<(), Problem> {
+    let spheres = world.spheres();
+    let states = spheres.ids().iter().zip(spheres.positions()).zip(spheres.velocities());
+    let motions = states.map(|((&id, &position), &velocity)| {
+        let velocity = velocity + DVec3::new(shear_rate * position.y, 0.0, 0.0);
+        SphereMotion { id, position, velocity }
+    });
+    let motions: Vec<_> = motions.collect();
+    let moved = world.set_motions(&motions);
+    moved.map_err(|error| Problem::of_physics("simulation.boundary.periodic", error))
 }
 
 /// Refuses a scene whose first step would fail.

@@ -54,3 +54,48 @@ fn shear_that_makes_no_sense_is_refused_with_its_place() {
         assert!(error.contains("shear_rate") && error.contains(what), "{error}");
     }
 }
+
+/// Grains of a lattice and one far above the box, at two sizes of everything.
+#[test]
+fn velocities_relative_to_the_flow_get_its_own_added_wherever_spheres_come_from() {
+    for size in [libm::ldexp(1.0, -20), 1.0, libm::ldexp(1.0, 20)] {
+        let text = format!(
+            r#"
+name = "sheared"
+[simulation]
+boundary = {{ periodic = {{ size = [{0}, {0}, {0}], shear_rate = 0.25, relative_velocities = true }} }}
+[[spheres]]
+position = [0.0, {1}, 0.0]
+radius = {2}
+velocity = [0.0, 0.0, {2}]
+[[generators]]
+[generators.lattice]
+counts = [1, 2, 1]
+start = [{2}, {2}, {2}]
+spacing = [{2}, {2}, {2}]
+sphere = {{ radius = {3} }}
+"#,
+            4.0 * size,
+            5.0 * size,
+            0.5 * size,
+            0.125 * size
+        );
+        let scene = Scene::from_toml(&text, "sheared.toml").unwrap();
+        assert_eq!(Scene::from_toml(&scene.to_toml(), "sheared.toml").unwrap(), scene);
+        let mut world = scene.world().unwrap();
+        let along =
+            |world: &carom::World, index: usize| world.spheres().velocities()[index].x / size;
+        assert_eq!([0, 1, 2].map(|index| along(&world, index)), [1.25, 0.125, 0.25]);
+        world.step(0.125).unwrap();
+        // It is in the box now, where its image moves with the flow, too.
+        assert_eq!([0, 1, 2].map(|index| along(&world, index)), [0.25, 0.125, 0.25]);
+        assert_eq!(world.spheres().velocities()[0].z, 0.5 * size);
+    }
+}
+
+#[test]
+fn velocities_are_as_written_where_nothing_is_sheared() {
+    let text = SHEARED.replace("shear_rate = 0.25", "relative_velocities = true");
+    let world = Scene::from_toml(&text, "still.toml").unwrap().world().unwrap();
+    assert_eq!(world.spheres().velocities()[0].to_array(), [0.0, 1.0, 0.0]);
+}

@@ -1,5 +1,6 @@
 // What worlds are made of: spheres, shapes, forces, springs, and how they are stepped.
 
+import type { Boundary } from "./boundary.js";
 import type { Finish, Material, MaterialPair, RestitutionLaw } from "./materials.js";
 import type { Shape } from "./shapes.js";
 import type { Strike } from "./strike.js";
@@ -415,8 +416,7 @@ export interface Simulation {
   frictionCombineRule?: CombineRule;
   /** Whether spheres may overlap at the start. */
   allowOverlap: boolean;
-  /** A periodic box about the origin [m], `Infinity` along an open axis; under `exact`. */
-  boundary: "open" | { periodic: { size: [number, number, number]; shearRate?: number } };
+  boundary: Boundary;
   thermostat?: Thermostat;
   /** Well of two spheres [J], up to a multiple of the sum of their radii; under `exact`. */
   pairPotential?: { squareWell: { depth: number; rangeRatio: number } };

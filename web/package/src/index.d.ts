@@ -41,6 +41,7 @@ import type {
 } from "./reports.js";
 import type { Strike } from "./strike.js";
 
+export * from "./boundary.js";
 export * from "./descriptions.js";
 export * from "./emitters.js";
 export * from "./materials.js";

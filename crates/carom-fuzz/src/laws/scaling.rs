@@ -71,7 +71,7 @@ fn scaled(scene: &Scene, scale: Scale) -> Scene {
     if let Some(PairPotential::SquareWell { depth, .. }) = &mut simulation.pair_potential {
         *depth *= scale.of(2, 1, -2);
     }
-    if let Boundary::Periodic { size, shear_rate } = &mut simulation.boundary {
+    if let Boundary::Periodic { size, shear_rate, .. } = &mut simulation.boundary {
         scale_vector(size, length);
         *shear_rate *= scale.of(0, 0, -1);
     }

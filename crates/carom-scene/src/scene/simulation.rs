@@ -149,6 +149,9 @@ pub enum Boundary {
         /// under the rules `exact` and `contact`.
         #[serde(default, skip_serializing_if = "is_default")]
         shear_rate: f64,
+        /// Whether the velocities of spheres at the start are relative to the mean flow of the shear, which adds its own.
+        #[serde(default, skip_serializing_if = "is_default")]
+        relative_velocities: bool,
     },
 }
 

@@ -83,8 +83,11 @@ fn an_edit_is_made_to_both_or_to_none() {
     assert_eq!(both.second().setup().simulation.rule, Rule::Discrete);
     assert!(!both.second().world().settings().spheres_collide);
     // Only one of the rules supports a periodic box.
-    simulation.boundary =
-        carom_scene::scene::Boundary::Periodic { size: [9.0; 3], shear_rate: 0.0 };
+    simulation.boundary = carom_scene::scene::Boundary::Periodic {
+        size: [9.0; 3],
+        shear_rate: 0.0,
+        relative_velocities: false,
+    };
     let hashes = [both.first().state_hash(), both.second().state_hash()];
     assert!(both.edit(&Edit::Simulation(Box::new(simulation))).is_err());
     assert_eq!([both.first().state_hash(), both.second().state_hash()], hashes);

@@ -164,7 +164,11 @@ fn edits() -> Vec<Edit> {
         .with_rotation(DQuat::from_xyzw(a, b, c, d))
         .with_max_spheres(u32::MAX)
         .with_count(u32::MAX - 1);
-    let boundary = Boundary::Periodic { size: [f64::INFINITY, b, d], shear_rate: a };
+    let boundary = Boundary::Periodic {
+        size: [f64::INFINITY, b, d],
+        shear_rate: a,
+        relative_velocities: true,
+    };
     let friction = Friction::sliding(a).with_rolling(b).with_spinning(c);
     let simulation = Simulation { frame_time: b, boundary, ..Simulation::default() };
     let all = SphereChange {

@@ -101,11 +101,14 @@ class Periodic(Part):
         size: Edges [m], each > 0; infinite along an axis that is open.
         shear_rate: Shear rate, in 1/s: what is above, along y, moves along x with this times the
             distance. By default 0. Only under the rules ``exact`` and ``contact``.
+        relative_velocities: Whether the velocities of spheres at the start are relative to the mean
+            flow of the shear, which adds its own.
     """
 
     tag: ClassVar[str] = "periodic"
     size: Period = (math.inf, math.inf, math.inf)
     shear_rate: Finite = 0.0
+    relative_velocities: bool = False
 
 
 @dataclass(frozen=True)

@@ -72,7 +72,8 @@ pub fn import_particles(
     simulation.frame_time = options.frame_time.unwrap_or(simulation.frame_time);
     simulation.duration = options.duration.unwrap_or(10.0);
     if frame.sides.iter().any(|side| side.is_finite()) {
-        simulation.boundary = Boundary::Periodic { size: frame.sides, shear_rate: 0.0 };
+        simulation.boundary =
+            Boundary::Periodic { size: frame.sides, shear_rate: 0.0, relative_velocities: false };
     }
     let mut omissions = Vec::new();
     if is_cut && options.frame.is_none() {
