@@ -137,3 +137,22 @@ def test_pairs_of_a_running_world_are_read_and_changed() -> None:
     assert world.material_pairs == (pair,)
     world.material_pairs = ()
     assert world.material_pairs == ()
+
+
+def test_the_stress_meter_counts_impacts_at_the_distance_of_a_pair_with_a_non_additivity() -> None:
+    for non_additivity in (-0.5, 0.0, 1.0):
+        scene = carom.Scene(
+            name="pair",
+            simulation=carom.Simulation(boundary=carom.Periodic([20.0] * 3)),
+            materials={"a": carom.Material(), "b": carom.Material()},
+            material_pairs=[carom.MaterialPair(("a", "b"), non_additivity=non_additivity)],
+            spheres=[
+                carom.Sphere(radius=1.0, position=(-6, 0, 0), velocity=(1, 0, 0), material="a"),
+                carom.Sphere(radius=1.0, position=(6, 0, 0), velocity=(-1, 0, 0), material="b"),
+            ],
+        )
+        meter = carom.StressMeter(scene.world())
+        meter.step(dt=8.0)
+        # One impact of 2 N s, the centres being as far apart as the pair says.
+        virial = float(meter.stress().collisional[0, 0]) * 8000.0 * 8.0
+        assert virial == pytest.approx(2.0 * 2.0 * (1.0 + non_additivity), rel=1e-12)

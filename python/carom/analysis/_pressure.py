@@ -38,7 +38,7 @@ def virial_pressure(run: Trajectory, volume: float) -> VirialPressure:
     distance, and do not count. Motion of all spheres together counts as heat: take it out of
     velocities before the run. Persistent contacts, as in a heap, press without impacts, and are
     not counted. Materials with a `non_additivity` meet at another distance than the sum of radii:
-    give it to `pressure_from_impacts`.
+    for them use `carom.StressMeter`, which knows it, or give it to `pressure_from_impacts`.
 
     Args:
         run: A run in a periodic box.
