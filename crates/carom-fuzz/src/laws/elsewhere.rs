@@ -19,7 +19,13 @@ const WAYS: [DVec3; 6] = [
 /// Returns the scene moved along each of some ways, with the ways \[m\]. `extent` is the farthest point of a sphere from
 /// the origin along an axis \[m\].
 pub fn elsewhere(scene: &Scene, extent: f64) -> impl Iterator<Item = (Scene, DVec3)> {
-    WAYS.into_iter().map(move |way| (moved(scene, extent * way), extent * way))
+    let ways = WAYS.into_iter().map(move |way| extent * in_space(way, scene));
+    ways.map(|way| (moved(scene, way), way))
+}
+
+/// Returns the part of a vector that does not lead out of the plane of a scene of two dimensions.
+pub fn in_space(vector: DVec3, scene: &Scene) -> DVec3 {
+    if scene.simulation.dimensions == 2 { vector.with_z(0.0) } else { vector }
 }
 
 fn moved(scene: &Scene, by: DVec3) -> Scene {

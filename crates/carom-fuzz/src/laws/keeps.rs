@@ -83,7 +83,11 @@ impl Keeps {
             |force: &Force| matches!(force, Force::Gravity { .. } | Force::Constant { .. });
         let is_held = |force: &Force| matches!(force, Force::MutualGravity { .. });
         let is_open = scene.simulation.boundary == Boundary::default();
-        let has_account = is_open && !scene.forces.iter().any(is_held);
+        // Potentials jump at the faces of a periodic box.
+        let is_free = scene.forces.is_empty() && scene.springs.is_empty();
+        let has_account = (is_open || is_free) && !scene.forces.iter().any(is_held);
+        // Under `contact` it is rounding where no field bends a path.
+        let is_exact = rule == Rule::Exact || rule == Rule::Contact && is_free && !is_open;
         let keeps_energy = is_open
             && scene.springs.is_empty()
             && scene.forces.iter().all(is_constant)
@@ -92,7 +96,7 @@ impl Keeps {
         let open = if is_driven { OPEN_ACCOUNT_OF_MOVERS } else { OPEN_ACCOUNT };
         let energy = world.total_energy();
         Self {
-            account: (rule == Rule::Exact && has_account).then_some(open),
+            account: (is_exact && has_account).then_some(open),
             gain: match rule {
                 Rule::Contact if is_kept && keeps_energy => Some(CONTACT_GAIN),
                 _ => None,

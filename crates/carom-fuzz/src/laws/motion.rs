@@ -4,6 +4,7 @@ use carom::DVec3;
 use carom_scene::Scene;
 use carom_scene::scene::{Boundary, Force, Motion, Rule};
 
+use super::elsewhere::in_space;
 use super::pair::{Agreement, Law, Pair};
 use super::trace::Trace;
 
@@ -36,10 +37,11 @@ fn pair(scene: &Scene, _: &Trace) -> Option<Pair> {
     if is_fixed {
         return None;
     }
-    let pair = Pair::new(moving(scene), Agreement::Rounding, |frame| {
+    let velocity = in_space(VELOCITY, scene);
+    let pair = Pair::new(moving(scene, velocity), Agreement::Rounding, move |frame| {
         for body in &mut frame.bodies {
-            body.position -= frame.time * VELOCITY;
-            body.velocity -= VELOCITY;
+            body.position -= frame.time * velocity;
+            body.velocity -= velocity;
         }
     });
     // Contacts with what moves are others: their pieces end with frames, and friction on them is stepped.
@@ -58,17 +60,17 @@ fn has_a_place(force: &Force) -> bool {
     }
 }
 
-fn moving(scene: &Scene) -> Scene {
+fn moving(scene: &Scene, by: DVec3) -> Scene {
     let mut scene = scene.clone();
     let add = |velocity: &mut [f64; 3]| {
-        *velocity = (DVec3::from_array(*velocity) + VELOCITY).to_array();
+        *velocity = (DVec3::from_array(*velocity) + by).to_array();
     };
     scene.spheres.iter_mut().for_each(|it| add(&mut it.velocity));
     for collider in &mut scene.colliders {
         if collider.motion.is_empty() {
             add(&mut collider.velocity);
         } else {
-            collider.motion.push(Motion::Steady { velocity: VELOCITY.to_array() });
+            collider.motion.push(Motion::Steady { velocity: by.to_array() });
         }
     }
     for force in &mut scene.forces {
@@ -77,7 +79,7 @@ fn moving(scene: &Scene) -> Scene {
                 add(velocity);
             }
             &mut Force::ViscousDrag { coefficient } => {
-                *force = Force::Wind { velocity: VELOCITY.to_array(), coefficient };
+                *force = Force::Wind { velocity: by.to_array(), coefficient };
             }
             _ => {}
         }

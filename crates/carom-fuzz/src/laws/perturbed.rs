@@ -21,7 +21,9 @@ pub fn perturbed(scene: &Scene, is_opposite: bool) -> Scene {
         for axis in 0..3 {
             number += 1;
             sphere.position[axis] *= 1.0 + size;
-            sphere.velocity[axis] += size * speed * spread(number);
+            if axis < scene.simulation.dimensions as usize {
+                sphere.velocity[axis] += size * speed * spread(number);
+            }
         }
     }
     scene

@@ -77,6 +77,8 @@ fn scaled(scene: &Scene, scale: Scale) -> Scene {
     }
     scene.forces.iter_mut().for_each(|it| scale_force(it, scale));
     scene.spheres.iter_mut().for_each(|it| scale_sphere(it, scale));
+    let laws = scene.material_pairs.iter_mut().filter_map(|it| it.restitution_law.as_mut());
+    laws.for_each(|it| scale_law(it, scale));
     scene.springs.iter_mut().for_each(|it| scale_spring(it, scale));
     scene.colliders.iter_mut().for_each(|it| scale_collider(it, scale));
     for Emitter { position, period, sphere, .. } in &mut scene.emitters {

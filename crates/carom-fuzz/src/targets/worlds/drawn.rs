@@ -11,6 +11,8 @@ use super::vector::{HALF, Vector, scaled};
 #[derive(Debug, Clone)]
 pub struct Drawn {
     pub rule: &'static str,
+    /// Whether balls are discs in a plane.
+    pub is_flat: bool,
     /// Lines of the table `simulation` that set options of the rules.
     pub choices: Vec<&'static str>,
     pub around: Around,
@@ -43,6 +45,18 @@ pub struct Around {
     pub parts: Vec<String>,
     /// Sides without a wall.
     pub open: &'static str,
+    pub shear: Shear,
+}
+
+/// How a sheared box moves.
+#[derive(Debug, Clone, Copy)]
+pub struct Shear {
+    /// Shear rate \[1/s\].
+    pub rate: f64,
+    /// Whether balls begin with velocities relative to the flow.
+    pub is_relative: bool,
+    /// Whether the box has no end along z.
+    pub is_open: bool,
 }
 
 /// Materials of the bodies.
@@ -53,6 +67,8 @@ pub struct Material {
     pub law: Option<&'static str>,
     /// Whether balls and walls have different materials, with coefficients for their pair.
     pub has_pair: bool,
+    /// Restitution law of each two balls, as written in scene files.
+    pub law_of_balls: Option<&'static str>,
     /// Non-additivity parameter of each two balls next to each other in the list, which are of two materials.
     pub non_additivity: Option<f64>,
     pub friction: Option<f64>,
@@ -131,6 +147,7 @@ pub fn drawn() -> impl Strategy<Value = Drawn> {
     let rule = prop_oneof![
         5 => Just("exact"), 3 => Just("contact"), 1 => Just("discrete"), 1 => Just("bisect")
     ];
+    let rule = (rule, proptest::bool::weighted(0.1));
     let settings = (rule, choices(), around(), material(), forces());
     let emitter = weighted(0.1, emitter());
     let bodies = (
@@ -142,10 +159,11 @@ pub fn drawn() -> impl Strategy<Value = Drawn> {
         weighted(0.04, 0.01..0.3),
     );
     (settings, bodies).prop_map(|(settings, bodies)| {
-        let (rule, choices, around, material, forces) = settings;
+        let ((rule, is_flat), choices, around, material, forces) = settings;
         let (has_floor, emitter, obstacles, (balls, crowding), springs, growth) = bodies;
-        let drawn = Drawn {
+        Drawn {
             rule,
+            is_flat,
             choices,
             around,
             material,
@@ -157,103 +175,8 @@ pub fn drawn() -> impl Strategy<Value = Drawn> {
             crowding,
             springs,
             growth,
-        };
-        sensible(drawn)
+        }
     })
-}
-
-/// Removes what a rule refuses, and what has no stable motion under it.
-fn sensible(mut drawn: Drawn) -> Drawn {
-    let is_slow = drawn.balls.iter().all(|ball| ball.velocity.iter().all(|it| it.abs() < 10.0));
-    let is_heavy = drawn.balls.iter().all(|ball| ball.mass >= 0.0);
-    let (is_exact, is_periodic) = (drawn.rule == "exact", drawn.around.kind == "periodic");
-    // Under other rules stiff ones are not stable; and many impacts within a force tick heat light balls.
-    drawn.springs = drawn.springs.filter(|_| is_exact && is_slow);
-    // Held over a tick, drag throws back what is light and fast; at rest such a ball becomes fast.
-    if !is_slow || !is_heavy {
-        drawn.forces.retain(|it| LINEAR.iter().any(|kind| it.starts_with(kind)));
-    }
-    if !is_exact {
-        drawn.choices.retain(|it| !it.starts_with("thermostat"));
-    }
-    if drawn.around.kind == "sheared" {
-        drawn = if drawn.rule == "contact" { rough_in_shear(drawn) } else { alone_in_shear(drawn) };
-    }
-    if drawn.choices.iter().any(|it| it.starts_with("pair_potential")) {
-        drawn = elastic(unlinked(drawn));
-        drawn.material.non_additivity = None;
-    }
-    if drawn.growth.is_some() {
-        drawn = growing(drawn);
-    }
-    if is_periodic {
-        // Such gravity has no end there.
-        drawn.forces.retain(|it| !it.starts_with("mutual"));
-    }
-    // What stands in the middle leaves no room.
-    if drawn.emitter.is_some() {
-        drawn.obstacles.clear();
-    }
-    drawn
-}
-
-/// Reduces a world to balls without forces, which may be rough in shear under the rule `contact`.
-fn rough_in_shear(mut drawn: Drawn) -> Drawn {
-    drawn.choices.retain(|it| !it.starts_with("pair_potential"));
-    (drawn.springs, drawn.emitter) = (None, None);
-    drawn.forces.clear();
-    drawn.obstacles.clear();
-    drawn.has_floor = false;
-    drawn
-}
-
-/// Reduces a world to smooth balls without forces, which alone may be sheared under the rule `exact`.
-fn alone_in_shear(drawn: Drawn) -> Drawn {
-    let mut drawn = unlinked(drawn);
-    drawn.choices.retain(|it| !it.starts_with("pair_potential"));
-    drawn.forces.clear();
-    drawn.obstacles.clear();
-    drawn.has_floor = false;
-    drawn
-}
-
-/// Reduces a world to balls that grow within their enclosure.
-fn growing(drawn: Drawn) -> Drawn {
-    let mut drawn = elastic(alone_in_shear(drawn));
-    drawn.choices.retain(|it| !it.starts_with("thermostat"));
-    (drawn.around.velocity, drawn.around.spin) = (None, None);
-    drawn.around.parts.clear();
-    if drawn.around.kind == "sheared" {
-        drawn.around.kind = "periodic";
-    }
-    drawn
-}
-
-/// Makes all impacts elastic.
-fn elastic(mut drawn: Drawn) -> Drawn {
-    drawn.material = Material { restitution: 1.0, law: None, has_pair: false, ..drawn.material };
-    drawn
-}
-
-/// Reduces a world to smooth balls under gravity at most, as wells need.
-fn unlinked(mut drawn: Drawn) -> Drawn {
-    drawn.rule = "exact";
-    drawn.forces.retain(|it| it.starts_with("gravity"));
-    (drawn.springs, drawn.emitter) = (None, None);
-    let Material { restitution, law, non_additivity, .. } = drawn.material;
-    let (rolling, spinning) = (None, None);
-    drawn.material = Material {
-        restitution,
-        law,
-        has_pair: false,
-        non_additivity,
-        friction: None,
-        rolling,
-        spinning,
-        tangential: None,
-    };
-    drawn.balls.iter_mut().for_each(|ball| ball.spin = None);
-    drawn
 }
 
 /// Draws lines that set options.
@@ -267,9 +190,6 @@ fn choices() -> impl Strategy<Value = Vec<&'static str>> {
         "exact = { impact_law = \"sequential\" }",
         "exact = { impact_law = \"simultaneous\" }",
         "exact = { zone_budget = 2000 }",
-        "thermostat = { andersen = { frequency = 8.0, temperature = 0.5, seed = 4 } }",
-        "thermostat = { rescale = { interval = 0.05, temperature = 0.5 } }",
-        "thermostat = { white-noise = { interval = 0.03, strength = 0.5, seed = 4 } }",
         "pair_potential = { square-well = { depth = 0.3, range_ratio = 1.5 } }",
         "pair_potential = { square-well = { depth = -0.1, range_ratio = 1.2 } }",
         "pair_potential = { square-well = { depth = 2.0, range_ratio = 1.01 } }",
@@ -282,8 +202,15 @@ fn choices() -> impl Strategy<Value = Vec<&'static str>> {
         "discrete = { integrator = \"explicit-euler\" }",
     ];
     let line = prop_oneof![2 => Just(None), 1 => select(lines.to_vec()).prop_map(Some)];
-    line.prop_map(|it| it.into_iter().collect())
+    let thermostat = weighted(0.08, select(&THERMOSTATS[..]));
+    (line, thermostat).prop_map(|(line, thermostat)| line.into_iter().chain(thermostat).collect())
 }
+
+const THERMOSTATS: [&str; 3] = [
+    "thermostat = { andersen = { frequency = 8.0, temperature = 0.5, seed = 4 } }",
+    "thermostat = { rescale = { interval = 0.05, temperature = 0.5 } }",
+    "thermostat = { white-noise = { interval = 0.03, strength = 0.5, seed = 4 } }",
+];
 
 fn around() -> impl Strategy<Value = Around> {
     let kind = prop_oneof![
@@ -294,14 +221,18 @@ fn around() -> impl Strategy<Value = Around> {
     let open = prop_oneof![8 => Just(""), 1 => Just("\"top\""), 1 => Just("[\"left\", \"front\"]")];
     let velocity = weighted(0.1, prop_oneof![vector_of(1.0), vector_of(30.0)]);
     let parts = prop_oneof![8 => Just(Vec::new()), 1 => vec(part(), 1..3)];
-    (kind, turn, velocity, weighted(0.05, vector_of(0.5)), parts, open).prop_map(
-        |(kind, turn, velocity, spin, parts, open)| Around {
+    let shear =
+        (select(&[1.5, 1.5, -0.25, 12.0][..]), any::<bool>(), proptest::bool::weighted(0.2))
+            .prop_map(|(rate, is_relative, is_open)| Shear { rate, is_relative, is_open });
+    (kind, turn, velocity, weighted(0.05, vector_of(0.5)), parts, (open, shear)).prop_map(
+        |(kind, turn, velocity, spin, parts, (open, shear))| Around {
             kind,
             turn,
             velocity,
             spin,
             parts,
             open,
+            shear,
         },
     )
 }
@@ -310,18 +241,23 @@ fn material() -> impl Strategy<Value = Material> {
     (
         select(&[1.0, 1.0, 0.95, 0.7, 0.3, 0.0][..]),
         weighted(0.1, select(&LAWS[..])),
-        (proptest::bool::weighted(0.1), weighted(0.1, select(&[-0.6, -0.1, 0.2, 0.7][..]))),
+        (
+            proptest::bool::weighted(0.1),
+            weighted(0.1, select(&LAWS[..])),
+            weighted(0.1, select(&[-0.6, -0.1, 0.2, 0.7][..])),
+        ),
         weighted(0.3, 0.01..1.0),
         weighted(0.3, 0.001..0.1),
         weighted(0.2, 0.001..0.1),
         weighted(0.2, 0.0..1.0),
     )
         .prop_map(|(restitution, law, pairs, friction, rolling, spinning, tangential)| {
-            let (has_pair, non_additivity) = pairs;
+            let (has_pair, law_of_balls, non_additivity) = pairs;
             Material {
                 restitution,
                 law,
                 has_pair,
+                law_of_balls,
                 non_additivity,
                 friction,
                 rolling: rolling.filter(|_| friction.is_some()),
@@ -337,9 +273,6 @@ const LAWS: [&str; 3] = [
     "viscoelastic = { speed = 1e4 }",
     "cutoff = { restitution = 0.8, speed = 1e-3 }",
 ];
-
-/// Forces under which flights have a closed form.
-const LINEAR: [&str; 2] = ["gravity", "constant"];
 
 fn forces() -> impl Strategy<Value = Vec<String>> {
     let gravity = vector_of(10.0).prop_map(|it| format!("gravity = {{ acceleration = {it:?} }}"));

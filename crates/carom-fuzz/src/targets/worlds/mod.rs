@@ -4,6 +4,7 @@
 mod drawn;
 mod meshes;
 mod placed;
+mod sensible;
 mod vector;
 mod written;
 
@@ -11,6 +12,7 @@ use carom_scene::Scene;
 use proptest::prelude::*;
 
 use self::drawn::drawn;
+use self::sensible::sensible;
 use self::written::written;
 use crate::case::text;
 use crate::fault::{Fault, check_error};
@@ -21,7 +23,7 @@ pub const TARGET: Target = Target {
     name: "worlds",
     about: "small worlds that are hard to step, under every rule, with the laws of each",
     campaign: 10_000,
-    cases: || drawn().prop_map(|it| written(&it).into_bytes()).boxed(),
+    cases: || drawn().prop_map(|it| written(&sensible(it)).into_bytes()).boxed(),
     check,
 };
 

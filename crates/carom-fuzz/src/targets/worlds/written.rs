@@ -2,7 +2,7 @@
 
 use carom::{DQuat, DVec3};
 
-use super::drawn::{Drawn, Emitter, Material, Obstacle, Springs};
+use super::drawn::{Drawn, Emitter, Material, Obstacle, Shear, Springs};
 use super::placed::{Placed, placed};
 use super::vector::{HALF, Vector, sum};
 
@@ -12,11 +12,12 @@ const FRAME_TIME: f64 = 3.0 / 256.0;
 /// Returns the scene file of a world.
 pub fn written(drawn: &Drawn) -> String {
     let coefficients = material(&drawn.material);
-    let named = drawn.material.has_pair || drawn.material.non_additivity.is_some();
+    let Material { has_pair, law_of_balls, non_additivity, .. } = drawn.material;
+    let named = has_pair || law_of_balls.is_some() || non_additivity.is_some();
     let of = |name: &str| if named { format!("material = \"{name}\"\n") } else { String::new() };
     let balls = ["ball", "other"].map(|name| coefficients.clone() + &of(name));
     let material = coefficients + &of("wall");
-    let placed = placed(&drawn.balls, drawn.crowding, drawn.material.non_additivity);
+    let placed = placed(&drawn.balls, drawn.crowding, non_additivity);
     let pieces = [
         if named { pairs(&drawn.material) } else { String::new() },
         simulation(drawn),
@@ -36,6 +37,11 @@ fn pairs(material: &Material) -> String {
     let mut text = "[materials]\nball = {}\nother = {}\nwall = {}\n".to_owned();
     if material.has_pair {
         text += "[[material_pairs]]\nmaterials = [\"ball\", \"wall\"]\nrestitution = 0.6\nfriction = 0.2\n";
+    }
+    if let Some(law) = material.law_of_balls {
+        text += &format!(
+            "[[material_pairs]]\nmaterials = [\"ball\", \"ball\"]\nrestitution_law = {{ {law} }}\n"
+        );
     }
     if let Some(non_additivity) = material.non_additivity {
         text += &format!(
@@ -63,22 +69,32 @@ fn material(material: &Material) -> String {
 }
 
 fn simulation(drawn: &Drawn) -> String {
-    let (rule, width) = (drawn.rule, 2.0 * HALF);
+    let rule = drawn.rule;
     let mut text = format!("[simulation]\nrule = \"{rule}\"\nframe_time = {FRAME_TIME:?}\n");
-    if drawn.around.kind == "periodic" {
-        text += &format!(
-            "boundary = {{ periodic = {{ size = [{width:?}, {width:?}, {width:?}] }} }}\n"
-        );
+    if drawn.is_flat {
+        text += "dimensions = 2\n";
     }
-    if drawn.around.kind == "sheared" {
-        text += &format!(
-            "boundary = {{ periodic = {{ size = [{width:?}, {width:?}, {width:?}], shear_rate = 1.5 }} }}\n"
-        );
-    }
+    text += &boundary(drawn);
     for choice in &drawn.choices {
         text += &format!("{choice}\n");
     }
     text
+}
+
+fn boundary(drawn: &Drawn) -> String {
+    let Shear { rate, is_relative, is_open } = drawn.around.shear;
+    let is_sheared = drawn.around.kind == "sheared";
+    if !is_sheared && drawn.around.kind != "periodic" {
+        return String::new();
+    }
+    let width = 2.0 * HALF;
+    let across = if drawn.is_flat || is_sheared && is_open { f64::INFINITY } else { width };
+    let shear = if is_sheared {
+        format!(", shear_rate = {rate:?}, relative_velocities = {is_relative}")
+    } else {
+        String::new()
+    };
+    format!("boundary = {{ periodic = {{ size = [{width:?}, {width:?}, {across:?}]{shear} }} }}\n")
 }
 
 /// Returns the velocity that all bodies share, besides their own \[m/s\].
@@ -191,7 +207,8 @@ fn emitter(drawn: &Drawn, emitter: &Emitter) -> String {
     let Emitter { period, count, is_ring, needs_room } = emitter;
     let limit = if *is_ring { "max_spheres" } else { "count" };
     let restitution = drawn.material.restitution;
-    let velocity = sum([0.0, 2.0, 1.0], velocity_of_all(drawn));
+    let own = if drawn.is_flat { [0.0, 2.0, 0.0] } else { [0.0, 2.0, 1.0] };
+    let velocity = sum(own, velocity_of_all(drawn));
     format!(
         "[[emitters]]\nperiod = {period:?}\n{limit} = {count}\nneeds_room = {needs_room}\n\
          sphere = {{ radius = 0.1, mass = 1.0, velocity = {velocity:?}, restitution = {restitution:?} }}\n"
