@@ -122,10 +122,12 @@ def test_the_spectrum_of_a_gas_comes_in_pairs() -> None:
 
 
 def test_what_has_no_derivative_is_refused() -> None:
-    rest = carom.Sphere(position=(0.5, 0.5, 0), radius=0.5)
-    floor = carom.Collider(shape=carom.HalfSpace())
+    # Along a rough groove.
+    rest = carom.Sphere(position=(0.5, 0.5, 0), radius=0.5, velocity=(0, 0, 1))
+    floor = carom.Collider(shape=carom.HalfSpace(), friction=0.2)
     half = math.sqrt(0.5)
-    wall = carom.Collider(shape=carom.HalfSpace(), rotation=(0, 0, -half, half))
+    turned = (0, 0, -half, half)
+    wall = carom.Collider(shape=carom.HalfSpace(), rotation=turned, friction=0.2)
     gravity = [carom.Gravity(acceleration=(-5, -9, 0))]
     scene = carom.Scene(name="test", spheres=[rest], colliders=[floor, wall], forces=gravity)
     world = scene.world()

@@ -266,16 +266,18 @@ fn what_lies_elsewhere_than_on_one_plane_is_refused() {
             "{error}"
         );
     };
-    // In a corner.
+    // Along a rough groove.
     let mut world = World::default();
     world.add_force(gravity(-3.0)).unwrap();
     let wall = DQuat::from_rotation_z(-std::f64::consts::FRAC_PI_2);
     for pose in [Pose::at(DVec3::ZERO), Pose { rotation: wall, ..Pose::at(DVec3::ZERO) }] {
-        world.add_collider(Collider::new(Shape::HalfSpace, pose)).unwrap();
+        let wall = Collider::new(Shape::HalfSpace, pose).with_friction(Friction::sliding(0.2));
+        world.add_collider(wall).unwrap();
     }
-    let ball = world.add_sphere(Sphere::new(vec(0.5, 0.5, 0.0), 0.5)).unwrap();
+    let ball = Sphere::new(vec(0.5, 0.5, 0.0), 0.5).with_velocity(vec(0.0, 0.0, 0.5));
+    let ball = world.add_sphere(ball).unwrap();
     refused(&mut world, ball);
-    // Over the end of a table.
+    // Slowly over the end of a table, so that it turns about its edge.
     for friction in [Friction::default(), Friction::sliding(0.2)] {
         let mut world = World::default();
         world.add_force(gravity(0.0)).unwrap();

@@ -4,8 +4,8 @@
 mod common;
 
 use carom::{
-    Collider, DVec3, DerivativeError, Friction, Gravity, Pose, Shape, Sides, Sphere, SphereId,
-    SphereTangent, Tangents, Tape, Variation, World,
+    Collider, DVec3, DerivativeError, Exact, Friction, Gravity, ImpactLaw, Pose, Rule, Settings,
+    Shape, Sides, Sphere, SphereId, SphereTangent, Tangents, Tape, Variation, World,
 };
 use common::derivatives::{
     Followed, after, assert_agree_with_differences, assert_backwards_equals_forwards, follow,
@@ -84,6 +84,19 @@ fn a_cradle_passes_the_derivative_of_its_ball_to_the_last_one() {
         let by = SphereTangent { velocity: DVec3::X, ..SphereTangent::default() };
         let gradient = tape.gradient(&[(balls[count], by)]).unwrap();
         assert!((gradient.sphere(balls[0]).velocity.x - 1.0).abs() < 1e-12);
+    }
+}
+
+#[test]
+fn groups_under_other_impact_laws_are_refused() {
+    for law in [ImpactLaw::Sequential, ImpactLaw::Simultaneous] {
+        let (mut world, balls) = cradle(3, &[1.0]);
+        let rule = Rule::Exact(Exact::default().with_impact_law(law));
+        world.set_settings(Settings::default().with_rule(rule)).unwrap();
+        let mut tape = Tape::start(&world).unwrap();
+        let error = tape.step(&mut world, 4.0).unwrap_err();
+        let DerivativeError::Simultaneous { sphere, time } = error else { panic!("{error}") };
+        assert!(balls.contains(&sphere) && time == 2.0, "{law}: {error}");
     }
 }
 

@@ -36,11 +36,11 @@ pub enum DerivativeError {
         /// Time on the world's clock \[s\].
         time: f64,
     },
-    /// A sphere neither flew freely nor stayed on one plane at rest between its impacts: it lies against several bodies,
-    /// on another sphere, on a curve or an edge, or on a moving surface, it leaves a plane at its end, or it is in a
+    /// A sphere neither flew freely nor stayed on one plane, or between smooth ones, between its impacts: it presses on
+    /// another sphere, lies on a curve or an edge, between rough planes, or on a surface that turns or speeds up, or it is in a
     /// stepped zone.
     #[error(
-        "sphere {sphere} did not fly freely, or stay on one plane at rest, between {from} s and {to} s: derivatives \
+        "sphere {sphere} did not fly freely, or stay on one plane, between {from} s and {to} s: derivatives \
          are known of such motion and of impacts only"
     )]
     PersistentContact {

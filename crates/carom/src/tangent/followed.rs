@@ -51,6 +51,9 @@ impl Followed {
                 Piece::Group(it) => {
                     self.margin.look_at_group(it, self.began, &mut self.last_impacts);
                 }
+                Piece::Departure(it) => {
+                    self.margin.look_at_directness(it.directness(), (it.id, self.began + it.time));
+                }
                 Piece::Passage(it) => {
                     self.margin.look_at_directness(it.directness(), (it.id, self.began + it.time));
                 }

@@ -230,9 +230,10 @@ impl Replay<'_> {
             let Some(second) = place(id) else { continue };
             let held = self.start.bodies[second].held;
             let is_plane = held.is_some_and(|held| match first {
-                First::Surface(collider) => {
-                    collider == held.collider && contact.normal.dot(held.normal) > 0.5
-                }
+                First::Surface(collider) => match self.corner_of(second, &held).flatten() {
+                    Some(corner) => corner.has(collider, contact.normal),
+                    None => collider == held.collider && contact.normal.dot(held.normal) > 0.5,
+                },
                 First::Sphere(..) => false,
             });
             if !is_plane {

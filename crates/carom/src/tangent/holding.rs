@@ -4,7 +4,7 @@ use glam::DVec3;
 
 use super::error::DerivativeError;
 use super::replay::Replay;
-use super::start::Held;
+use super::start::{Held, Plane};
 use crate::detect::sphere_surface;
 use crate::rule::exact::{HeldMotion, NormalCurvature, SupportChange, curvature_of};
 use crate::rule::periodic;
@@ -28,34 +28,62 @@ impl Replay<'_> {
         since(change, [self.start.time, self.end])
     }
 
-    /// Returns the plane that holds a sphere, of several the one that bears most; `None` if something else holds it.
-    pub fn held(&self, place: usize, motion: &HeldMotion) -> Option<Held> {
-        let planes = motion.surfaces.iter().flatten().map(|&it| self.held_by(place, motion, it));
+    /// Returns the plane that holds a sphere at a time since the start of the step \[s\], of several the one that bears
+    /// most; `None` if something else holds it.
+    pub fn held(&self, place: usize, motion: &HeldMotion, at: f64) -> Option<Held> {
+        let surfaces = motion.surfaces.iter().flatten();
+        let planes = surfaces.map(|&it| self.held_by((place, motion), it, at));
         let planes: Option<Vec<Held>> = planes.collect();
+        let planes = planes?;
+        let mut all = [None; 3];
+        for (slot, it) in all.iter_mut().zip(&planes) {
+            let &Held { surface, collider, normal, .. } = it;
+            *slot = Some(Plane { surface, collider, normal });
+        }
+        let moves = planes.iter().any(|it| it.velocity != DVec3::ZERO);
+        if planes.len() > 1 && moves {
+            return None;
+        }
         let pull = self.start.bodies[place].linear.acceleration;
         let bearing = |it: &Held| -pull.dot(it.normal);
-        planes?.into_iter().max_by(|a, b| bearing(a).total_cmp(&bearing(b)))
+        let first = planes.into_iter().max_by(|a, b| bearing(a).total_cmp(&bearing(b)))?;
+        Some(Held { planes: all, ..first })
     }
 
-    /// Returns a surface as the plane that holds a sphere; `None` if it is none, or moves.
-    fn held_by(&self, place: usize, motion: &HeldMotion, surface: u32) -> Option<Held> {
-        if self.start.bodies[place].is_curved {
-            return None;
-        }
+    /// Returns a surface as the plane that holds a sphere; `None` if it is none, turns, or changes its velocity.
+    fn held_by(
+        &self,
+        (place, motion): (usize, &HeldMotion),
+        surface: u32,
+        at: f64,
+    ) -> Option<Held> {
+        let body = &self.start.bodies[place];
         let it = &self.start.colliders.surfaces()[surface as usize];
-        if !it.motion.is_at_rest() || it.motion.belt != DVec3::ZERO {
+        let is_steady = it.course.is_none()
+            && it.motion.drive.is_none()
+            && it.motion.angular_velocity == DVec3::ZERO;
+        // The air does not move with a surface.
+        let is_dragged = body.linear.drag_rate > 0.0 && it.carries();
+        if body.is_curved || !is_steady || is_dragged {
             return None;
         }
-        let separation =
-            sphere_surface(&it.form, motion.position, self.system.spheres.radius[place])?;
-        let curvature = curvature_of(&it.form, [motion.position, motion.velocity], &separation);
+        let (form, surface_motion) = it.after(at);
+        let separation = sphere_surface(&form, motion.position, self.system.spheres.radius[place])?;
+        let normal = separation.normal;
+        let belt = surface_motion.belt - surface_motion.belt.dot(normal) * normal;
+        let velocity = surface_motion.velocity + belt;
+        let beside = [motion.position, motion.velocity - surface_motion.velocity];
+        let curvature = curvature_of(&form, beside, &separation);
         (curvature == NormalCurvature::Flat).then_some(Held {
             surface,
             collider: it.collider,
-            normal: separation.normal,
+            normal,
+            velocity,
             acceleration: motion.acceleration,
             angular_acceleration: motion.angular_acceleration,
+            planes: [None; 3],
             has_others: motion.has_others,
+            touches_spheres: motion.touches_spheres,
         })
     }
 
@@ -84,7 +112,7 @@ impl Replay<'_> {
     ) -> Result<Option<(HeldMotion, Held)>, DerivativeError> {
         let motion = self.next_change(place, |at| at == time).and_then(|it| it.held);
         let Some(motion) = motion else { return Ok(None) };
-        let held = self.held(place, &motion).ok_or_else(|| self.lost(place))?;
+        let held = self.held(place, &motion, time).ok_or_else(|| self.lost(place))?;
         Ok(Some((motion, held)))
     }
 }

@@ -5,9 +5,11 @@
 
 mod along_curves;
 mod coefficients;
+mod cornered;
 mod curve_section;
 mod curved;
 mod curves;
+mod departure;
 mod dry_motion;
 mod dual;
 mod edge_passage;
@@ -21,6 +23,7 @@ mod known;
 mod law;
 mod linearized;
 mod margin;
+mod on_planes;
 mod replay;
 mod saltation;
 mod saltation_back;
@@ -40,7 +43,7 @@ pub use state::SphereTangent;
 pub use tape::Tape;
 pub use variation::{ColliderVariation, SphereVariation, SpringVariation, Variation};
 
-use crate::id::SphereId;
+use crate::id::{ColliderId, SphereId};
 use crate::world::World;
 use followed::Followed;
 use input_rates::InputRates;
@@ -53,8 +56,8 @@ const TURNED: &str = "rotations of colliders that move, bear spheres, or are met
 /// initial state changes in a direction.
 ///
 /// Available for worlds under the rule `exact` whose spheres fly freely, on springs or under forces with
-/// [`Force::derivatives`](crate::Force::derivatives), or slide, roll and rest on single planes, and meet each other and
-/// surfaces one at a time, with or without friction. A ball may meet a group of bodies that touch, as in a cradle or a rack of
+/// [`Force::derivatives`](crate::Force::derivatives), or slide, roll and rest on single planes, or between smooth ones, and
+/// meet each other and surfaces one at a time, with or without friction. A ball may meet a group of bodies that touch, as in a cradle or a rack of
 /// billiards, along directions that keep these in touch. Anything without a derivative is an error. The formulas are in `docs/physics/derivatives.md`.
 ///
 /// ```
@@ -224,14 +227,20 @@ fn pass(
                 spheres[place].fly(Piece::propagator(time, drag_rate), accelerations[place]);
             }
             Piece::Supported(ref flight) => {
-                if direction.collider(flight.collider).rotation != DVec3::ZERO {
-                    return Err(DerivativeError::Unsupported(TURNED));
-                }
+                are_not_turned(direction, [flight.collider])?;
                 flight.pass(direction, spheres);
             }
             Piece::InputChange(ref change) => change.pass(direction, spheres),
             Piece::Curved(ref flight) => flight.pass((direction, accelerations), spheres),
             Piece::Tightening(ref thread) => thread.pass(direction, spheres),
+            Piece::Cornered(ref flight) => {
+                are_not_turned(direction, flight.colliders())?;
+                flight.pass(direction, spheres);
+            }
+            Piece::Departure(ref departure) => {
+                are_not_turned(direction, [departure.collider])?;
+                departure.pass(direction, spheres);
+            }
             Piece::Passage(ref passage) => passage.pass(direction, spheres),
             Piece::Impact(ref saltation) => saltation.pass(direction, spheres),
             Piece::Loose(ref contact) => {
@@ -252,6 +261,16 @@ fn pass(
         }
     }
     Ok(())
+}
+
+/// Returns an error if a direction turns one of these colliders.
+fn are_not_turned(
+    direction: &Variation,
+    colliders: impl IntoIterator<Item = ColliderId>,
+) -> Result<(), DerivativeError> {
+    let turns = |id: ColliderId| direction.collider(id).rotation != DVec3::ZERO;
+    let is_turned = colliders.into_iter().any(turns);
+    if is_turned { Err(DerivativeError::Unsupported(TURNED)) } else { Ok(()) }
 }
 
 /// Returns an error if a direction changes something that is not in the world, or a quantity that its forces depend

@@ -5,8 +5,10 @@ use std::collections::{BTreeMap, VecDeque};
 use glam::DVec3;
 
 use super::coefficients::{RestitutionRates, restitution_of, sliding_of};
+use super::cornered::CorneredFlight;
 use super::curved::CurvedFlight;
 use super::curves::Curves;
+use super::departure::Departure;
 use super::edge_passage::{Passage, Side};
 use super::error::DerivativeError;
 use super::group::{GroupSaltation, LooseContact};
@@ -44,6 +46,8 @@ pub(super) enum Piece {
     InputChange(Box<InputChange>),
     Curved(Box<CurvedFlight>),
     Tightening(Box<Tightening>),
+    Cornered(Box<CorneredFlight>),
+    Departure(Box<Departure>),
     Passage(Box<Passage>),
     Impact(Box<Saltation>),
     Group(Box<GroupSaltation>),
@@ -139,20 +143,25 @@ impl Replay<'_> {
         while let Some(change) = self.next_change(place, |at| at < time) {
             let at = self.since_start(&change);
             let next = match change.held {
-                Some(motion) => Some(self.held(place, &motion).ok_or_else(|| self.lost(place))?),
+                Some(motion) => {
+                    Some(self.held(place, &motion, at).ok_or_else(|| self.lost(place))?)
+                }
                 None => None,
             };
             let was_held = self.start.bodies[place].held.is_some();
             let begins = change.held.is_some_and(|motion| motion.is_old) || at == 0.0;
             match (was_held, next) {
-                // The sphere leaves a plane, or comes onto one, without an impact.
-                (true, None) => return Err(self.lost(place)),
+                // The sphere comes onto a plane without an impact.
                 (false, Some(_)) if !begins => return Err(self.lost(place)),
                 _ => {}
             }
             self.fly(place, at, change.held.zip(next))?;
             if let Some((motion, held)) = change.held.zip(next) {
                 self.hold(place, &motion, held)?;
+            } else if was_held {
+                let departure = self.departure(place, at)?;
+                self.pieces.push(Piece::Departure(Box::new(departure)));
+                self.start.bodies[place].held = None;
             }
         }
         Ok(())
@@ -220,14 +229,23 @@ impl Replay<'_> {
         let (_, velocity) = body.flight(linear).after(over);
         let angular_velocity = body.angular_velocity + over * angular_acceleration;
         if over > 0.0 {
-            let flight = self.supported(place, held, over, next);
-            let flight = flight.ok_or_else(|| self.lost(place))?;
-            if held.has_others && !flight.is_alone(linear.acceleration)
-                || !flight.is_that(linear.acceleration, [velocity, angular_velocity])
-            {
-                return Err(self.lost(place));
-            }
-            self.pieces.push(Piece::Supported(Box::new(flight)));
+            let piece = match self.corner_of(place, &held) {
+                Some(corner) => {
+                    let flight = corner.filter(|it| it.goes_on(next.map(|it| it.1)));
+                    let flight = flight.ok_or_else(|| self.lost(place))?;
+                    Piece::Cornered(Box::new(flight.over(over)))
+                }
+                None => {
+                    let flight = self.supported(place, held, over, next);
+                    let flight = flight.ok_or_else(|| self.lost(place))?;
+                    let ends = [velocity - held.velocity, angular_velocity];
+                    if !flight.is_that(linear.acceleration, ends) {
+                        return Err(self.lost(place));
+                    }
+                    Piece::Supported(Box::new(flight))
+                }
+            };
+            self.pieces.push(piece);
         }
         Ok(angular_velocity)
     }
@@ -250,6 +268,9 @@ impl Replay<'_> {
         {
             return None;
         }
+        if next.velocity != held.velocity || self.corner_of(place, &next).is_some() {
+            return None;
+        }
         let after = self.flight_on(place, next, [motion.velocity, motion.angular_velocity]);
         flight.ending = flight.ending_before(&after, after.mode_of()?);
         flight.after = after.rates()?;
@@ -257,7 +278,7 @@ impl Replay<'_> {
     }
 
     /// Returns a flight of length zero on a plane, with these velocities.
-    fn flight_on(
+    pub fn flight_on(
         &self,
         place: usize,
         held: Held,
@@ -273,7 +294,7 @@ impl Replay<'_> {
             normal: held.normal,
             radius: self.system.spheres.radius[place],
             inertia_factor: self.system.spheres.inertia_factor(place),
-            velocity,
+            velocity: velocity - held.velocity,
             angular_velocity,
             linear,
             by_inputs: self.start.inputs.get(&place).map_or([DVec3::ZERO; 2], |it| it.acceleration),
@@ -297,6 +318,9 @@ impl Replay<'_> {
         let linear = self.start.bodies[place].linear;
         let free = Rates { linear, angular_acceleration: DVec3::ZERO };
         let Some((held, velocities)) = held else { return Ok(free) };
+        if let Some(corner) = self.corner_of(place, &held) {
+            return corner.map(|_| held.rates(linear)).ok_or_else(|| self.lost(place));
+        }
         self.flight_on(place, held, velocities).rates().ok_or_else(|| self.lost(place))
     }
 

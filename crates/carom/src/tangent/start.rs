@@ -59,10 +59,24 @@ pub(super) struct Held {
     pub surface: u32,
     pub collider: ColliderId,
     pub normal: DVec3,
+    /// Velocity of its material \[m/s\]: it does not change.
+    pub velocity: DVec3,
     pub acceleration: DVec3,
     pub angular_acceleration: DVec3,
+    /// All planes that hold the sphere, this one included.
+    pub planes: [Option<Plane>; 3],
     /// Whether the sphere, or one that it touches, has other contacts.
     pub has_others: bool,
+    /// Whether the sphere touches others.
+    pub touches_spheres: bool,
+}
+
+/// One of the planes that hold a sphere.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Plane {
+    pub surface: u32,
+    pub collider: ColliderId,
+    pub normal: DVec3,
 }
 
 impl Start {
@@ -163,6 +177,12 @@ impl Flying {
 }
 
 impl Held {
+    /// Returns whether a plane of a collider with this normal is among those that hold the sphere.
+    pub fn has(&self, collider: ColliderId, normal: DVec3) -> bool {
+        let is_that = |it: &Plane| it.collider == collider && it.normal.dot(normal) > 0.5;
+        self.planes.iter().flatten().any(is_that)
+    }
+
     /// Returns the accelerations of the sphere under its drag and these forces.
     pub fn rates(&self, linear: LinearForce) -> Rates {
         let Self { acceleration, angular_acceleration, .. } = *self;

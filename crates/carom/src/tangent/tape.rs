@@ -92,6 +92,8 @@ impl Tape {
             }
             // A later flight is not joined with one before the change.
             Piece::InputChange(change) => self.last_flights[change.place] = None,
+            Piece::Departure(it) => self.last_flights[it.place] = None,
+            Piece::Cornered(it) => self.last_flights[it.place] = None,
             Piece::Curved(_) | Piece::Tightening(_) | Piece::Passage(_) => {}
             // Directions are checked, gradients are of those that pass.
             Piece::Loose(_) => return,
@@ -138,6 +140,8 @@ impl Tape {
                     flight.pass_back(&mut spheres, (&mut gradient, &mut accelerations));
                 }
                 Piece::Tightening(ref thread) => thread.pass_back(&mut spheres, &mut gradient),
+                Piece::Cornered(ref flight) => flight.pass_back(&mut spheres, &mut gradient),
+                Piece::Departure(ref departure) => departure.pass_back(&mut spheres, &mut gradient),
                 Piece::Passage(ref passage) => passage.pass_back(&mut spheres, &mut gradient),
                 Piece::Impact(ref saltation) => saltation.pass_back(&mut spheres, &mut gradient),
                 Piece::Loose(_) => {}

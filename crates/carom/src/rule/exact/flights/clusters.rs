@@ -74,6 +74,12 @@ impl Cluster {
         self.sides.iter().filter(move |it| it.bodies == bodies).map(|it| it.side)
     }
 
+    /// Whether a sphere, by its index, is in contact with another one.
+    pub fn touches_spheres(&self, sphere: u32) -> bool {
+        let has = |contact: &Bodies| matches!(*contact, Bodies::Pair(first, second) if first == sphere || second == sphere);
+        self.contacts.iter().any(has)
+    }
+
     /// The surfaces that a sphere, by its index, is in contact with.
     pub fn surfaces_of(&self, sphere: u32) -> impl Iterator<Item = u32> {
         let first = Bodies::Surface { sphere, surface: 0 };

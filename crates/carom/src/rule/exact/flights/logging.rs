@@ -95,6 +95,7 @@ impl Flights {
                     [(); 3].map(|()| surfaces.next())
                 },
                 has_others: cluster.contacts.len() > 1,
+                touches_spheres: cluster.touches_spheres(index),
                 is_old,
             }
         });

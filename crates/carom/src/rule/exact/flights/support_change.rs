@@ -26,6 +26,8 @@ pub(crate) struct HeldMotion {
     pub surfaces: [Option<u32>; 3],
     /// Whether these and other spheres that these touch have more than one contact.
     pub has_others: bool,
+    /// Whether the sphere touches others.
+    pub touches_spheres: bool,
     /// Whether it held before the step, too.
     pub is_old: bool,
 }
