@@ -20,7 +20,7 @@ const MOST_FOR_EVENT: u64 = 1 << 10;
 const MOST_WITH_SHORT_STEPS: u64 = 1 << 18;
 
 /// Allowed evaluations in a tick where only contacts bend the flights: such spheres can be in a zone instead.
-const MOST_BEFORE_ZONE: u64 = 1 << 16;
+const MOST_BEFORE_ZONE: u64 = 1 << 17;
 
 /// A sphere that is in no component.
 const NONE: u32 = u32::MAX;

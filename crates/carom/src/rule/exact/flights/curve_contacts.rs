@@ -354,14 +354,14 @@ impl<'a> CurveContacts<'a> {
     }
 
     /// The relative velocity in a contact across its normal \[m/s\].
-    fn across(&self, number: usize, moving: Moving) -> DVec3 {
+    pub fn across(&self, number: usize, moving: Moving) -> DVec3 {
         let (contact, normal) = (&self.contacts[number], self.normals[number]);
         let velocity = contact.difference(moving.velocities) - self.carried[number].velocity;
         velocity - velocity.dot(normal) * normal
     }
 
     /// The sum of radius times angular velocity, as seen from a surface that turns \[m/s\].
-    fn spin(&self, number: usize, moving: Moving, spheres: &[ContactSphere]) -> DVec3 {
+    pub fn spin(&self, number: usize, moving: Moving, spheres: &[ContactSphere]) -> DVec3 {
         let contact = &self.contacts[number];
         let spin = contact.surface_turning(spheres, moving.angular_velocities);
         spin - spheres[contact.second].radius * self.carried[number].spin

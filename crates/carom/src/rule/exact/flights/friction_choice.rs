@@ -9,9 +9,10 @@ use crate::norm::Norm;
 
 /// Part of the speeds in a contact below which a slip counts as none: more than rounding leaves of one that ends.
 const SLOW: f64 = 1e-9;
-/// Part of the speeds in a contact below which friction keeps its direction over a step, that of the slip in the middle.
-/// Where a slip begins or ends, its direction may turn ever faster the smaller it is, and no step of finite length follows.
-const SMALL: f64 = 0.05;
+/// Part of the relative speeds in a contact below which friction keeps its direction over a step, that of the slip in the
+/// middle. Where a slip begins or ends, its direction may turn ever faster the smaller it is, and no step of finite length
+/// follows.
+const SMALL: f64 = 1e-3;
 /// Most times that the directions of small slips are found, each of which depends on the others.
 const MOST_TURNS: usize = 8;
 /// Directions of friction that differ by less than this are the same.
@@ -36,6 +37,13 @@ const MOST_CHANGES: usize = 8;
 /// Most sweeps of the relaxation.
 const MOST_SWEEPS: usize = 1000;
 
+/// Below which speeds a slip counts as none or as small \[m/s\].
+#[derive(Debug, Clone, Copy)]
+struct SlipLimits {
+    none: f64,
+    small: f64,
+}
+
 impl CurveContacts<'_> {
     /// Chooses the states of all contacts for a step of some length \[s\] that begins with this motion and these
     /// accelerations without contacts \[m/s²\]: what slides goes on, and what does not begins to slide where rolling takes
@@ -54,21 +62,21 @@ impl CurveContacts<'_> {
         // that are so beside the whole acceleration.
         let net: Vec<f64> = free.accelerations.iter().map(|it| it.norm()).collect();
         for (length, sizes) in [(length, &free.sizes), (0.0, &free.sizes), (0.0, &net)] {
-            let slow = self.states_by_slip(moving, spheres, sizes);
-            let at = self.states_over((moving, spheres), free, &slow, length);
+            let limits = self.states_by_slip(moving, spheres, sizes);
+            let at = self.states_over((moving, spheres), free, &limits, length);
             if self.hardest_pull(spheres, &at.sizes).is_none() {
                 return;
             }
         }
     }
 
-    /// Changes the states by slip, of which those up to `slow` \[m/s\] count as none, to those for a step of some length
-    /// \[s\]. Returns the accelerations with them \[m/s²\].
+    /// Changes the states by slip, within these limits of each contact, to those for a step of some length \[s\]. Returns
+    /// the accelerations with them \[m/s²\].
     fn states_over(
         &mut self,
         (moving, spheres): (Moving, &[ContactSphere]),
         free: &Values,
-        slow: &[f64],
+        limits: &[SlipLimits],
         length: f64,
     ) -> Values {
         let at = self.turn_until_settled(moving, spheres, free, length);
@@ -76,7 +84,7 @@ impl CurveContacts<'_> {
             *slack = OPENS * spheres[contact.second].mass * at.sizes[contact.second];
         }
         let pulls = self.hardest_pull(spheres, &at.sizes).is_some();
-        let none_begins = vec![false; slow.len()];
+        let none_begins = vec![false; limits.len()];
         if !pulls && self.contacts_that_break(&none_begins, moving, spheres, &at).is_empty() {
             return at;
         }
@@ -85,8 +93,8 @@ impl CurveContacts<'_> {
             self.forces.fill((0.0, DVec3::ZERO));
         }
         self.relax(moving, spheres, free);
-        let begins = self.begin_slips(slow, moving, spheres);
-        self.change_broken(begins, slow, (moving, spheres), free)
+        let begins = self.begin_slips(limits, moving, spheres);
+        self.change_broken(begins, limits, (moving, spheres), free)
     }
 
     /// Finds the directions of small slips, each of which depends on the others. Returns the accelerations with them
@@ -126,18 +134,18 @@ impl CurveContacts<'_> {
     /// Begins a slip in each contact that rolls with the largest friction. Returns in which.
     fn begin_slips(
         &mut self,
-        slow: &[f64],
+        limits: &[SlipLimits],
         moving: Moving,
         spheres: &[ContactSphere],
     ) -> Vec<bool> {
-        let mut begins = vec![false; slow.len()];
+        let mut begins = vec![false; limits.len()];
         for number in 0..self.contacts.len() {
             let (normal_force, friction) = self.forces[number];
             let largest = self.contacts[number].friction * normal_force;
             let is_largest = largest > 0.0 && friction.norm() >= (1.0 - ROUNDING) * largest;
             if self.states[number] == FrictionState::Rolls && is_largest {
                 begins[number] = true;
-                self.begin_slip(number, slow[number], moving, spheres);
+                self.begin_slip(number, limits[number], moving, spheres);
             }
         }
         begins
@@ -148,7 +156,7 @@ impl CurveContacts<'_> {
     fn change_broken(
         &mut self,
         mut begins: Vec<bool>,
-        slow: &[f64],
+        limits: &[SlipLimits],
         (moving, spheres): (Moving, &[ContactSphere]),
         free: &Values,
     ) -> Values {
@@ -162,7 +170,7 @@ impl CurveContacts<'_> {
                 if begins[number] {
                     self.states[number] = FrictionState::Rolls;
                 } else {
-                    self.begin_slip(number, slow[number], moving, spheres);
+                    self.begin_slip(number, limits[number], moving, spheres);
                 }
                 begins[number] = !begins[number];
             }
@@ -207,14 +215,20 @@ impl CurveContacts<'_> {
     }
 
     /// Begins a slip against the present friction of a contact.
-    fn begin_slip(&mut self, number: usize, slow: f64, moving: Moving, spheres: &[ContactSphere]) {
+    fn begin_slip(
+        &mut self,
+        number: usize,
+        limits: SlipLimits,
+        moving: Moving,
+        spheres: &[ContactSphere],
+    ) {
         let friction = self.forces[number].1;
         let slip = self.slip(number, moving, spheres).norm();
         self.states[number] = FrictionState::Slides {
             direction: -friction / friction.norm(),
             least: f64::INFINITY,
-            most_back: 2.0 * slip + 10.0 * LEAST * slow,
-            most: BEYOND * SMALL / SLOW * slow,
+            most_back: 2.0 * slip + 10.0 * LEAST * limits.none,
+            most: BEYOND * limits.small,
         };
     }
 
@@ -293,42 +307,56 @@ impl CurveContacts<'_> {
         self.relax(moving, spheres, free)
     }
 
-    /// Sets the states by whether surfaces slide beside the speeds and these accelerations \[m/s²\]. Returns the slip of
-    /// each contact that counts as none \[m/s\].
+    /// Sets the states by whether surfaces slide beside the speeds and these accelerations \[m/s²\]. Returns the limits of
+    /// the slip in each contact.
     fn states_by_slip(
         &mut self,
         moving: Moving,
         spheres: &[ContactSphere],
         accelerations: &[f64],
-    ) -> Vec<f64> {
+    ) -> Vec<SlipLimits> {
         self.measure(moving);
-        let slow_of = |contact: &CurveContact| {
-            let speed = |(place, _): (usize, f64)| {
-                let radius = spheres[place].radius;
-                let turning = radius * moving.angular_velocities[place].norm();
-                let falls = (accelerations[place] * radius).sqrt();
-                moving.velocities[place].norm() + turning + falls
-            };
-            SLOW * contact.ends().map(speed).sum::<f64>()
-        };
-        let slow: Vec<f64> = self.contacts.iter().map(slow_of).collect();
-        for (number, &slow) in slow.iter().enumerate() {
+        let limits_of = |number: usize| self.slip_limits(number, moving, spheres, accelerations);
+        let limits: Vec<SlipLimits> = (0..self.contacts.len()).map(limits_of).collect();
+        for (number, &SlipLimits { none, small }) in limits.iter().enumerate() {
             let slip = self.slip(number, moving, spheres);
             let speed = slip.norm();
             self.states[number] = if self.contacts[number].friction == 0.0 {
                 FrictionState::None
-            } else if speed <= slow {
+            } else if speed <= none {
                 FrictionState::Rolls
             } else {
-                let (direction, small) = (slip / speed, SMALL / SLOW * slow);
+                let direction = slip / speed;
                 let (least, most) = match speed <= small {
                     true => (f64::INFINITY, BEYOND * small),
-                    false => (LEAST * slow, f64::INFINITY),
+                    false => (LEAST * none, f64::INFINITY),
                 };
                 FrictionState::Slides { direction, least, most_back: 0.0, most }
             };
         }
-        slow
+        limits
+    }
+
+    /// The limits of the slip in a contact of spheres with these accelerations \[m/s²\].
+    fn slip_limits(
+        &self,
+        number: usize,
+        moving: Moving,
+        spheres: &[ContactSphere],
+        accelerations: &[f64],
+    ) -> SlipLimits {
+        let ends = || self.contacts[number].ends().map(|(place, _)| place);
+        let falls = |place: usize| (accelerations[place] * spheres[place].radius).sqrt();
+        let falls: f64 = ends().map(falls).sum();
+        let speed = |place: usize| {
+            let turning = spheres[place].radius * moving.angular_velocities[place].norm();
+            moving.velocities[place].norm() + turning
+        };
+        let speeds: f64 = ends().map(speed).sum();
+        let across = self.across(number, moving).norm();
+        let relative = across + self.spin(number, moving, spheres).norm();
+        let none = SLOW * (speeds + falls);
+        SlipLimits { none, small: (SMALL * (relative + falls)).max(none) }
     }
 
     /// Relaxes the forces until none pulls, friction is at most the largest, and no contact closes or slides that need
