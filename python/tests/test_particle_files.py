@@ -9,6 +9,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import ase.io
 import gsd.hoomd
@@ -35,11 +36,25 @@ def spinning() -> carom.Trajectory:
     return carom.Scene(name="two", spheres=spheres, simulation=box).run(frames=20)
 
 
+def sheared() -> carom.Trajectory:
+    """Two spheres in a box whose images slide by more than half a side."""
+    spheres = [
+        carom.Sphere(position=(-0.7, 1.3, 0), radius=0.3, velocity=(1, 2, 0.1)),
+        carom.Sphere(position=(0.9, 0, 0), radius=0.2, velocity=(-1, 0, 0), mass=0.3),
+    ]
+    box = carom.Simulation(boundary=carom.Periodic(SIDES, shear_rate=0.7), frame_time=0.05)
+    run = carom.Scene(name="sheared", spheres=spheres, simulation=box).run(frames=20)
+    assert run.slides is not None
+    assert run.slides.min() < -0.1
+    assert run.slides.max() > 1.3
+    return run
+
+
 def same(one: carom.Trajectory, other: carom.Trajectory) -> None:
     """Checks that two runs have the same states to the bit."""
     for name in ("time", "ids", "radii", "masses", "positions", "velocities"):
         np.testing.assert_array_equal(getattr(one, name), getattr(other, name), name)
-    for name in ("orientations", "angular_velocities", "box"):
+    for name in ("orientations", "angular_velocities", "box", "slides"):
         mine, its = getattr(one, name), getattr(other, name)
         assert (mine is None) == (its is None), name
         if mine is not None:
@@ -53,6 +68,35 @@ def test_a_run_comes_back_to_the_bit(ending: str, tmp_path: Path) -> None:
     assert np.abs(run.angular_velocities[-1]).max() > 0.1
     run.save(tmp_path / f"run.{ending}")
     same(carom.Trajectory.load(tmp_path / f"run.{ending}"), run)
+
+
+@pytest.mark.parametrize("ending", [*ENDINGS, "npz"])
+def test_a_sheared_run_comes_back_to_the_bit(ending: str, tmp_path: Path) -> None:
+    run = sheared()
+    run.save(tmp_path / f"run.{ending}")
+    again = carom.Trajectory.load(tmp_path / f"run.{ending}")
+    same(again, run)
+    assert run.slides is not None
+    # The speed of the box above is 0.7 / s times 3.3 m.
+    way = 0.7 * SIDES[1] * run.time
+    np.testing.assert_allclose(run.slides, way - np.round(way / 3) * 3, atol=1e-15)
+
+
+@pytest.mark.parametrize("ending", ENDINGS)
+def test_a_scene_does_not_begin_with_boxes_that_have_slid(ending: str, tmp_path: Path) -> None:
+    run = sheared()
+    run.save(tmp_path / f"run.{ending}")
+    with pytest.raises(carom.SceneError, match="begins with aligned boxes"):
+        carom.Scene.from_particles(tmp_path / f"run.{ending}")
+    scene = carom.Scene.from_particles(tmp_path / f"run.{ending}", frame=0)
+    np.testing.assert_array_equal(scene.world().positions, run.positions[0])
+
+
+def test_analysis_of_a_sheared_run_asks_for_a_box() -> None:
+    run = sheared()
+    with pytest.raises(carom.CaromError, match=r"^box: must be given"):
+        carom.analysis.radial_distribution(run, r_max=1.0)
+    carom.analysis.radial_distribution(run, [np.inf] * 3, r_max=1.0, volume=39.6)
 
 
 @pytest.mark.parametrize("ending", ENDINGS)
@@ -79,6 +123,23 @@ def test_the_command_writes_what_python_reads(ending: str, tmp_path: Path) -> No
     assert run.box.tolist() == [3.0, 3.3, np.inf]
 
 
+@pytest.mark.parametrize("ending", [*ENDINGS, "npz"])
+def test_the_command_writes_how_far_boxes_slid(ending: str, tmp_path: Path) -> None:
+    scene, path = tmp_path / "two.toml", tmp_path / f"run.{ending}"
+    box = "size = [3, 3.3, inf], shear_rate = 0.7"
+    scene.write_text(
+        f"[simulation]\nframe_time = 0.1\nboundary = {{ periodic = {{ {box} }} }}\n"
+        "[[spheres]]\nradius = 0.3\nvelocity = [3, 2, 1]\n"
+    )
+    carom_command("run", str(scene), "--frames", "10", "--out", str(path))
+    run = carom.Trajectory.load(path)
+    whole = carom.Scene.from_file(scene).run(frames=10)
+    assert run.slides is not None
+    assert whole.slides is not None
+    np.testing.assert_array_equal(run.slides, whole.slides[1:])
+    np.testing.assert_array_equal(run.positions, whole.positions[1:])
+
+
 def test_ase_reads_extended_xyz_with_box_and_times(tmp_path: Path) -> None:
     run = spinning()
     run.save(tmp_path / "run.xyz")
@@ -91,6 +152,25 @@ def test_ase_reads_extended_xyz_with_box_and_times(tmp_path: Path) -> None:
         assert frame.cell.lengths().tolist() == list(SIDES)
         assert frame.pbc.all()
         assert frame.info["Time"] == run.time[row]
+
+
+def test_other_programs_see_how_far_boxes_slid(tmp_path: Path) -> None:
+    run = sheared()
+    assert run.slides is not None
+    for ending in ("xyz", "lammpstrj", "gsd"):
+        run.save(tmp_path / f"run.{ending}")
+    frames: Any = ase.io.read(tmp_path / "run.xyz", index=":")
+    path = tmp_path / "run.lammpstrj"
+    dumps: Any = ase.io.read(path, index=":", format="lammps-dump-text")
+    with gsd.hoomd.open(tmp_path / "run.gsd", "r") as boxes:
+        for row, slide in enumerate(run.slides):
+            cell = [[SIDES[0], 0, 0], [slide, SIDES[1], 0], [0, 0, SIDES[2]]]
+            np.testing.assert_array_equal(frames[row].cell[...], cell)
+            # ASE takes the sides from the bounds of the leaning box.
+            np.testing.assert_allclose(dumps[row].cell[...], cell, atol=1e-14)
+            np.testing.assert_array_equal(dumps[row].positions, run.positions[row])
+            tilt = np.float32(slide / SIDES[1])
+            assert boxes[row].configuration.box.tolist() == [*map(np.float32, SIDES), tilt, 0, 0]
 
 
 def test_ase_reads_dumps_of_lammps(tmp_path: Path) -> None:

@@ -25,20 +25,22 @@ pub struct Particles<'py> {
     radii: PyReadonlyArray1<'py, f64>,
     masses: PyReadonlyArray1<'py, f64>,
     sides: [f64; 3],
+    slides: Option<PyReadonlyArray1<'py, f64>>,
     positions: PyReadonlyArray3<'py, f64>,
     velocities: Option<PyReadonlyArray3<'py, f64>>,
     orientations: Option<PyReadonlyArray3<'py, f64>>,
     angular_velocities: Option<PyReadonlyArray3<'py, f64>>,
 }
 
-/// Times, ids, radii and masses if the file has them, the sides of the box, and what changes, by
-/// name.
+/// Times, ids, radii and masses if the file has them, the sides of the box, how far the box above slid in each frame,
+/// and what changes, by name.
 type Arrays<'py> = (
     Bound<'py, PyArray1<f64>>,
     Bound<'py, PyArray1<u64>>,
     Option<Bound<'py, PyArray1<f64>>>,
     Option<Bound<'py, PyArray1<f64>>>,
     [f64; 3],
+    Bound<'py, PyArray1<f64>>,
     Vec<(&'static str, Bound<'py, PyAny>)>,
 );
 
@@ -76,6 +78,10 @@ fn frame(particles: &Particles<'_>, row: usize, time: f64) -> PyResult<ParticleF
     Ok(ParticleFrame {
         time: Some(time),
         sides: particles.sides,
+        slide: match &particles.slides {
+            Some(slides) => slides.as_slice()?.get(row).copied(),
+            None => None,
+        },
         ids: there.iter().map(|&index| ids[index]).collect(),
         positions: there.iter().map(|&index| all[index]).collect(),
         velocities: particles.velocities.as_ref().map(three).transpose()?,
@@ -107,7 +113,10 @@ pub fn read_particle_file(py: Python<'_>, path: PathBuf) -> PyResult<Arrays<'_>>
         other => Failure::of_file(other).into(),
     })?;
     let sides = frames.first().map_or([f64::INFINITY; 3], |frame| frame.sides);
-    if frames.iter().any(|frame| frame.sides != sides) {
+    // Programs that write bounds of skewed boxes round them.
+    let is_same = |one: f64, other: f64| one == other || (one - other).abs() <= 1e-12 * other;
+    let is_changed = |frame: &ParticleFrame| (0..3).any(|i| !is_same(frame.sides[i], sides[i]));
+    if frames.iter().any(is_changed) {
         let problem = format!("{}: its box changes from frame to frame", path.display());
         return Err(Failure::of_file(problem).into());
     }
@@ -130,6 +139,7 @@ pub fn read_particle_file(py: Python<'_>, path: PathBuf) -> PyResult<Arrays<'_>>
         states.numbers(|frame| frame.radii.as_ref()).map(numbers),
         states.numbers(|frame| frame.masses.as_ref()).map(numbers),
         sides,
+        numbers(frames.iter().map(|frame| frame.slide.unwrap_or(0.0)).collect()),
         vectors.into_iter().flatten().collect(),
     ))
 }

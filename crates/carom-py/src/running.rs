@@ -7,7 +7,8 @@ use std::ops::Range;
 use std::time::Instant;
 
 use carom::Boundary;
-use numpy::PyArray1;
+use carom_scene::recording::slide;
+use numpy::{PyArray1, PyReadonlyArray1};
 use pyo3::prelude::*;
 
 use crate::arguments;
@@ -66,6 +67,18 @@ impl Engine {
             Boundary::Periodic { size } => Some(size.to_array()),
             Boundary::Open => None,
         })
+    }
+
+    /// How far the box above has slid along x at each of some times [m]; `None` without shear.
+    fn _slides<'py>(
+        &self,
+        py: Python<'py>,
+        times: PyReadonlyArray1<'py, f64>,
+    ) -> PyResult<Option<Bound<'py, PyArray1<f64>>>> {
+        let inner = self.lock(py)?;
+        let slides = times.as_slice()?.iter().map(|&time| slide(inner.world.settings(), time));
+        let slides: Option<Vec<f64>> = slides.collect();
+        Ok(slides.filter(|all| !all.is_empty()).map(|all| PyArray1::from_vec(py, all)))
     }
 
     /// Takes `frames` frames of `dt` [s]. Records the selected parts of the present state and of

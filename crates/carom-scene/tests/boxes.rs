@@ -50,3 +50,15 @@ fn the_sides_of_a_periodic_box_are_in_npz_and_vtk() {
 fn trajectories_without_a_box_have_no_sides() {
     assert_eq!(boxes(&Library::new().find("simtest1", &[]).unwrap().0), (None, None));
 }
+
+#[test]
+fn how_far_a_sheared_box_slid_is_in_vtk() {
+    let text = "[simulation]\n\
+                boundary = { periodic = { size = [4, 8, inf], shear_rate = 0.5 } }\n\
+                [[spheres]]\nradius = 0.3\nvelocity = [1, 2, 3]\n";
+    let (sides, field) = boxes(&Scene::from_toml(text, "text").unwrap());
+    assert_eq!(sides, Some(vec![4.0, 8.0, f64::INFINITY]));
+    // The box above moves with 4 m/s for 0.3 s.
+    let field = field.unwrap();
+    assert!(field.contains("Name=\"slide\"") && field.contains(">1.2"), "{field}");
+}

@@ -275,7 +275,7 @@ fn what_makes_no_sense_is_refused_with_its_line() {
     assert_eq!(of(&format!("1\n{radii}\nX 0 0 0\n")), "a.xyz:3: expected 5 columns, found 4");
     assert_eq!(
         of(&format!("0\nLattice=\"1 1 0 0 1 0 0 0 1\" {radii}\n")),
-        "a.xyz:2: Lattice: a box with edges along other lines than the axes is not read"
+        "a.xyz:2: Lattice: a box is read with skewed edges in steady shear only: y along x"
     );
     assert_eq!(
         of("1\nProperties=species:S:1\nX\n"),
@@ -286,8 +286,8 @@ fn what_makes_no_sense_is_refused_with_its_line() {
     let of = |text: &str| problem(&folder, "a.dump", text);
     assert_eq!(of("hello\n"), "a.dump:1: expected a line that begins with ITEM:, not \"hello\"");
     assert_eq!(
-        of("ITEM: BOX BOUNDS xy xz yz pp pp pp\n0 1 0\n"),
-        "a.dump:1: a box with skewed edges is not read"
+        of("ITEM: BOX BOUNDS xy xz yz pp pp pp\n0 1 0\n0 1 0.5\n0 1 0\n"),
+        "a.dump:4: a box is read with skewed edges in steady shear only: y along x"
     );
     assert_eq!(
         of("ITEM: ATOMS id x y z\n"),

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from carom._carom import Engine
 from carom._run.tables import IMPACT, SENSOR_EVENT, records
-from carom._run.trajectory import RunRecord, Selection, Trajectory, box_of
+from carom._run.trajectory import RunRecord, Selection, Trajectory, box_of, slides_of
 from carom._scene.points import spread
 from carom._scene.text import read_part
 from carom.errors import CaromError
@@ -114,7 +114,7 @@ class Functions:
             except BaseException:
                 world.restore(before)
                 raise
-        trajectory = _joined(states, events, box_of(world))
+        trajectory = _joined(states, events, world)
         if stopped is not None:
             stopped.trajectory = trajectory  # type: ignore[attr-defined]
             raise stopped
@@ -209,7 +209,7 @@ def count(name: str, given: object) -> int:
 def _joined(
     states: list[RunRecord],
     events: dict[str, list[NDArray[np.void]]],
-    box: NDArray[np.float64] | None,
+    world: Engine,
 ) -> Trajectory:
     """A trajectory of single states, each as the engine records it."""
     known: dict[int, tuple[float, float]] = {}
@@ -224,11 +224,13 @@ def _joined(
         for place, state in enumerate(states):
             motion[name][place, np.searchsorted(all_ids, state[1])] = state[5][number][1][0]
     motion.update({name: np.concatenate(parts) for name, parts in events.items()})
+    time = np.concatenate([state[0] for state in states])
     return Trajectory(
-        time=np.concatenate([state[0] for state in states]),
+        time=time,
         ids=all_ids,
         radii=np.array([known[number][0] for number in all_ids.tolist()]),
         masses=np.array([known[number][1] for number in all_ids.tolist()]),
-        box=box,
+        box=box_of(world),
+        slides=slides_of(world, time),
         **motion,
     )

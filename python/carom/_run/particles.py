@@ -26,6 +26,7 @@ class Particles(NamedTuple):
     radii: Floats
     masses: Floats
     sides: list[float]
+    slides: Floats | None
     positions: Floats
     velocities: Floats | None
     orientations: Floats | None
@@ -51,7 +52,7 @@ def read(path: str | os.PathLike[str], radius: float | None) -> dict[str, Any]:
     """
     with open(path, "rb"):
         pass  # An error of the system stays one.
-    time, ids, radii, masses, sides, motion = read_particle_file(Path(path))
+    time, ids, radii, masses, sides, slides, motion = read_particle_file(Path(path))
     if radii is None and radius is None:
         raise CaromError(
             f"radius: the particles of {os.fspath(path)} have none: give one", "radius"
@@ -66,5 +67,6 @@ def read(path: str | os.PathLike[str], radius: float | None) -> dict[str, Any]:
         "radii": np.full(len(ids), radius, dtype=np.float64) if radii is None else radii,
         "masses": np.ones(len(ids)) if masses is None else masses,
         "box": np.array(sides) if np.isfinite(sides).any() else None,
+        "slides": slides if slides.any() else None,
         **dict(motion),
     }

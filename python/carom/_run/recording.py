@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from carom._carom import Engine, Snapshot
 from carom._run.functions import count
 from carom._run.tables import IMPACT, SENSOR_EVENT
-from carom._run.trajectory import Recorded, Selection, Trajectory, box_of
+from carom._run.trajectory import Recorded, Selection, Trajectory, box_of, slides_of
 from carom.errors import CaromError
 
 Out = Mapping[Recorded, NDArray[np.floating]]
@@ -159,6 +159,7 @@ class _Record:
             radii=world.radii.copy(),
             masses=world.masses.copy(),
             box=box_of(world),
+            slides=slides_of(world, self._time[: self._rows]),
             **recorded,
         )
 

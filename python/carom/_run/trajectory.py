@@ -81,6 +81,11 @@ def box_of(world: Engine) -> NDArray[np.float64] | None:
     return None if sides is None else np.array(sides)
 
 
+def slides_of(world: Engine, time: NDArray[np.float64]) -> NDArray[np.float64] | None:
+    """How far the box above has slid at each of some times, in a world in steady shear."""
+    return world._slides(np.ascontiguousarray(time, np.float64))
+
+
 def _not_recorded() -> Any:
     """Stands for what was not recorded, until it is taken out."""
     return None
@@ -112,6 +117,8 @@ class Trajectory:
             the orientations.
         box: Sides of the periodic box around the origin [m], shape (3,), infinite along an axis
             that is open; None where no axis is periodic.
+        slides: How far the box above, along y, has slid along x at each time [m], shape (t,), at
+            most half a side; None without steady shear.
     """
 
     time: NDArray[np.float64]
@@ -125,6 +132,7 @@ class Trajectory:
     orientations: NDArray[np.float64] | None = None
     angular_velocities: NDArray[np.float64] | None = None
     box: NDArray[np.float64] | None = None
+    slides: NDArray[np.float64] | None = None
 
     def __post_init__(self) -> None:
         for name in _REQUIRED:
@@ -190,7 +198,8 @@ class Trajectory:
         An .npz file has the arrays that ``carom run --out`` writes, one row for each sphere that is
         there at each time, and the events besides, as records of `carom.IMPACT` and
         `carom.SENSOR_EVENT`. Extended XYZ (.xyz, .extxyz), dumps of LAMMPS (.lammpstrj, .dump) and
-        GSD (.gsd) are for other programs: they hold the states and the box, but no events.
+        GSD (.gsd) are for other programs: they hold the states and the box, in steady shear with
+        edges along y that lean, but no events.
 
         Args:
             path: Of the file, with its ending. A file that is there is replaced.
@@ -229,6 +238,8 @@ class Trajectory:
         }
         if self.box is not None:
             arrays["box"] = self.box
+        if self.slides is not None:
+            arrays["slide"] = self.slides
         arrays.update({name: self.__dict__[name] for name in _EVENTS if name in self.__dict__})
         for name, column_name in _COLUMNS.items():
             values = self._recorded(name)
@@ -255,6 +266,7 @@ class Trajectory:
             radii=double(self.radii),
             masses=double(self.masses),
             sides=[np.inf] * 3 if self.box is None else [float(side) for side in self.box],
+            slides=None if self.slides is None else double(self.slides),
             positions=double(self.positions),
             velocities=doubles("velocities"),
             orientations=doubles("orientations"),
@@ -318,6 +330,7 @@ class Trajectory:
             radii=arrays["radius"],
             masses=arrays["mass"],
             box=arrays.get("box"),
+            slides=arrays.get("slide"),
             **motion,
         )
 
@@ -374,8 +387,8 @@ class Trajectory:
     def to_xarray(self) -> xarray.Dataset:
         """Positions and velocities over ``time``, ``sphere`` and ``axis``; the arrays are shared.
 
-        Radii and masses are there, too, over ``sphere``, and the sides of a periodic box over
-        ``axis``. With rotation so are angular velocities,
+        Radii and masses are there, too, over ``sphere``, the sides of a periodic box over
+        ``axis``, and its slide under shear over ``time``. With rotation so are angular velocities,
         and orientations over ``part``, that of a quaternion.
 
         Raises:
@@ -409,4 +422,6 @@ class Trajectory:
             coordinates["part"] = list(_PARTS)
         if self.box is not None:
             variables["box"] = ("axis", self.box, {"units": "m"})
+        if self.slides is not None:
+            variables["slide"] = ("time", self.slides, {"units": "m"})
         return xarray.Dataset(variables, coordinates)

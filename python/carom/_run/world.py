@@ -19,7 +19,7 @@ from carom._run.queries import PredictedPath, Queries
 from carom._run.recording import Out, check_choice, check_rhythm, run_into
 from carom._run.reports import ContactAccount, EnergyAccount, StageCounts, ZoneAccount
 from carom._run.strict import Strict
-from carom._run.trajectory import Recorded, Selection, Trajectory, box_of
+from carom._run.trajectory import Recorded, Selection, Trajectory, box_of, slides_of
 from carom._scene import parts
 from carom._scene.above import above
 from carom._scene.points import Points
@@ -231,6 +231,7 @@ class World(Strict, Queries, Bodies):
         if selection.has_sensor_events:
             recorded["sensor_events"] = tables.records(words[1], tables.SENSOR_EVENT)
         recorded["box"] = box_of(self)
+        recorded["slides"] = slides_of(self, time)
         trajectory = Trajectory(time=time, ids=ids, radii=radii, masses=masses, **recorded)
         if stopped is not None:
             stopped.trajectory = trajectory  # type: ignore[attr-defined]

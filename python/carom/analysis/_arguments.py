@@ -101,6 +101,9 @@ def box_sides(box: Box | None, run: Trajectory | ArrayLike = ()) -> Floats:
     They are infinite along each axis without a box.
     """
     if box is None and isinstance(run, Trajectory):
+        if run.slides is not None:
+            problem = "must be given for a run in steady shear, whose boxes slide: they count as"
+            raise CaromError(f"box: {problem} aligned, or as open where a side is infinite", "box")
         box = run.box
     if box is None:
         return np.full(3, np.inf)

@@ -4,7 +4,8 @@
 //! 1): the rows of frame k are `frame_start[k] .. frame_start[k + 1]`. If spheres can rotate, also
 //! `orientation` (rows, 4; x, y, z, w) and `angular_velocity` (rows, 3). Then `time` (frames), and
 //! `id`, `radius` and `mass` with the last values of every sphere of any frame, and `box` (3) with
-//! the sides of the periodic box, if there is one, infinite along open axes.
+//! the sides of the periodic box, if there is one, infinite along open axes, and under shear how far the box above slid
+//! in each frame.
 
 use std::collections::BTreeMap;
 use std::fs::File;
@@ -84,7 +85,7 @@ fn add_arrays<W: Write + Seek>(journal: &mut Journal, zip: &mut Zip<W>) -> io::R
     if let Some(sides) = sides(journal)? {
         append_all(zip, "box", sides.into_iter())?;
     }
-    Ok(())
+    if journal.extent.is_sheared { slides(zip, journal) } else { Ok(()) }
 }
 
 /// Last radius \[m\] and mass \[kg\] of each sphere, by number.
@@ -123,6 +124,20 @@ fn sides(journal: &mut Journal) -> io::Result<Option<[f64; 3]>> {
         })
     })?;
     Ok(words.last_chunk().copied())
+}
+
+/// Writes how far the box above has slid \[m\] in each frame: 0 without shear.
+fn slides<W: Write + Seek>(zip: &mut Zip<W>, journal: &mut Journal) -> io::Result<()> {
+    let mut array = begin(zip, "slide", &[journal.extent.whole.records])?;
+    journal.frames(|_, columns| {
+        let mut slide = 0.0;
+        columns.words(Column::Slide, |word| {
+            slide = f64::from_le_bytes(word);
+            Ok(())
+        })?;
+        array.push(&slide)
+    })?;
+    array.finish()
 }
 
 /// Writes an array with one value per frame, repeated. `value` returns the value and how often it

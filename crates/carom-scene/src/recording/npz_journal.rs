@@ -1,7 +1,7 @@
 //! The journal of an NPZ file: a file to which frames are appended.
 //!
 //! The head of a frame contains its time \[s\], the number of spheres, and the bits [`ROTATION`],
-//! [`BODIES`] and [`BOX`]. The body contains its columns one after the other.
+//! [`BODIES`], [`BOX`] and [`SLIDE`]. The body contains its columns one after the other.
 
 use std::fs::File;
 use std::io::{self, BufReader, Read, Seek, SeekFrom, Write};
@@ -10,6 +10,7 @@ use carom::{Boundary, World};
 
 use super::records::{self, CHUNK, HEAD, Magic, RecordWriter, WORD, Words, parse_head};
 use super::rotation::{angular_velocity, orientation};
+use super::slide;
 
 /// First bytes of a journal.
 const MAGIC: &Magic = b"carom npz 1\x1a\r\n\0\0";
@@ -19,6 +20,8 @@ const ROTATION: u64 = 1;
 const BODIES: u64 = 2;
 /// Bit of a frame that has the sides of a periodic box, which replace the earlier ones.
 const BOX: u64 = 4;
+/// Bit of a frame whose periodic box is in steady shear.
+const SLIDE: u64 = 8;
 
 /// A column of a frame, with values for every sphere or, of the box, for all of them.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -32,11 +35,13 @@ pub(super) enum Column {
     Mass,
     /// Sides of the periodic box.
     Box,
+    /// How far the box above has slid.
+    Slide,
 }
 
 impl Column {
     /// All columns, in the order of the file.
-    const ALL: [Self; 8] = [
+    const ALL: [Self; 9] = [
         Self::Ball,
         Self::Position,
         Self::Velocity,
@@ -45,12 +50,13 @@ impl Column {
         Self::Radius,
         Self::Mass,
         Self::Box,
+        Self::Slide,
     ];
 
     /// Number of values per sphere, or of all values of the box.
     pub const fn width(self) -> u64 {
         match self {
-            Self::Ball | Self::Radius | Self::Mass => 1,
+            Self::Ball | Self::Radius | Self::Mass | Self::Slide => 1,
             Self::Position | Self::Velocity | Self::AngularVelocity | Self::Box => 3,
             Self::Orientation => 4,
         }
@@ -62,12 +68,13 @@ impl Column {
             Self::Orientation | Self::AngularVelocity => bits & ROTATION != 0,
             Self::Radius | Self::Mass => bits & BODIES != 0,
             Self::Box => bits & BOX != 0,
+            Self::Slide => bits & SLIDE != 0,
         }
     }
 
     /// Length in a frame of `count` spheres \[bytes\]; `None` if it overflows.
     fn length(self, count: u64) -> Option<u64> {
-        let rows = if self == Self::Box { 1 } else { count };
+        let rows = if matches!(self, Self::Box | Self::Slide) { 1 } else { count };
         rows.checked_mul(WORD * self.width())
     }
 }
@@ -100,7 +107,8 @@ impl JournalWriter {
         self.sides = sides;
         let bits = u64::from(has_rotation) * ROTATION
             + u64::from(self.renew(world)) * BODIES
-            + u64::from(has_box) * BOX;
+            + u64::from(has_box) * BOX
+            + u64::from(slide(world.settings(), world.time()).is_some()) * SLIDE;
         let words = [world.time().to_bits(), world.spheres().len() as u64, bits];
         let mut record = RecordWriter::begin(&mut self.chunk, out, words);
         for column in Column::ALL.into_iter().filter(|it| it.is_in(bits)) {
@@ -141,8 +149,14 @@ fn write_column(
     world: &World,
 ) -> io::Result<()> {
     let spheres = world.spheres();
-    if column == Column::Box {
-        return push_numbers(record, &sides(world).unwrap_or([f64::INFINITY; 3]));
+    match column {
+        Column::Box => {
+            return push_numbers(record, &sides(world).unwrap_or([f64::INFINITY; 3]));
+        }
+        Column::Slide => {
+            return push_numbers(record, &[slide(world.settings(), world.time()).unwrap_or(0.0)]);
+        }
+        _ => {}
     }
     for i in 0..spheres.len() {
         match column {
@@ -153,7 +167,7 @@ fn write_column(
             Column::AngularVelocity => push_numbers(record, &angular_velocity(world, i))?,
             Column::Radius => push_numbers(record, &[spheres.radii()[i]])?,
             Column::Mass => push_numbers(record, &[spheres.masses()[i]])?,
-            Column::Box => {}
+            Column::Box | Column::Slide => {}
         }
     }
     Ok(())
@@ -197,6 +211,10 @@ impl Head {
         self.bits & ROTATION != 0
     }
 
+    pub fn is_sheared(self) -> bool {
+        self.bits & SLIDE != 0
+    }
+
     pub fn has_bodies(self) -> bool {
         self.bits & BODIES != 0
     }
@@ -209,6 +227,8 @@ pub(super) struct Extent {
     /// Number of spheres, summed over all frames.
     pub rows: u64,
     pub has_rotation: bool,
+    /// Whether the periodic box is in steady shear in any frame.
+    pub is_sheared: bool,
     /// Time of the last frame \[s\].
     pub last: Option<f64>,
 }
@@ -233,6 +253,7 @@ impl<'a> Journal<'a> {
         let each = |_, words: &Words| {
             let head = Head::of(words);
             extent.has_rotation = head.has_rotation();
+            extent.is_sheared |= head.is_sheared();
             extent.rows += head.count;
             extent.last = Some(head.time);
         };

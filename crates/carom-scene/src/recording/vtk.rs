@@ -13,6 +13,7 @@ use vtkio::model::{
 use super::each_second::EachSecond;
 use super::format::Format;
 use super::rotation::{angular_velocity, orientation};
+use super::slide;
 use crate::unfinished::create_folders_of;
 
 /// Writes `NAME.pvd`, and `000000.vtp`, `000001.vtp`, ... in the folder `NAME_frames` beside it.
@@ -109,7 +110,7 @@ impl Format for Series {
 }
 
 /// Adds the periodic box of a world to a frame, as field data with the sides \[m\], 0 along open
-/// axes. vtkio writes no field data beside points.
+/// axes, and under shear how far the box above has slid \[m\]. vtkio writes no field data beside points.
 fn with_box(frame: Vec<u8>, world: &World) -> io::Result<Vec<u8>> {
     let Boundary::Periodic { size } = world.settings().boundary else { return Ok(frame) };
     let text = String::from_utf8(frame).map_err(io::Error::other)?;
@@ -117,9 +118,12 @@ fn with_box(frame: Vec<u8>, world: &World) -> io::Result<Vec<u8>> {
     let sides = size.to_array().map(|side| if side.is_finite() { side } else { 0.0 });
     let [x, y, z] = sides;
     let (before, after) = text.split_at(place);
+    let slide = slide(world.settings(), world.time()).map_or(String::new(), |slide| {
+        format!("<DataArray type=\"Float64\" Name=\"slide\" NumberOfTuples=\"1\" format=\"ascii\">{slide}</DataArray>")
+    });
     Ok(format!(
         "{before}<FieldData><DataArray type=\"Float64\" Name=\"box\" NumberOfTuples=\"1\" \
-         NumberOfComponents=\"3\" format=\"ascii\">{x} {y} {z}</DataArray></FieldData>{after}"
+         NumberOfComponents=\"3\" format=\"ascii\">{x} {y} {z}</DataArray>{slide}</FieldData>{after}"
     )
     .into_bytes())
 }

@@ -6,8 +6,11 @@ use carom::DVec3;
 
 use super::columns::{Columns, Quantity};
 use super::error::{Fault, Problem, shown};
-use super::frame::{FrameBox, Header, ParticleFrame};
+use super::frame::{FrameBox, Header, ParticleFrame, SKEWED};
 use super::lines::Lines;
+
+/// Largest error of a rounded bound of a box, as a part of it.
+const ROUNDING: f64 = 1e-14;
 
 pub(super) fn write_header(
     out: &mut impl Write,
@@ -24,10 +27,20 @@ pub(super) fn write_header(
     }
     writeln!(out, "ITEM: TIMESTEP\n{number}")?;
     writeln!(out, "ITEM: NUMBER OF ATOMS\n{}", frame.ids.len())?;
-    let kinds = cell.is_periodic.map(|it| if it { "pp" } else { "ff" });
-    writeln!(out, "ITEM: BOX BOUNDS {}", kinds.join(" "))?;
-    for axis in 0..3 {
-        writeln!(out, "{:?} {:?}", cell.low[axis], cell.high[axis])?;
+    let kinds = cell.is_periodic.map(|it| if it { "pp" } else { "ff" }).join(" ");
+    if cell.slide == 0.0 {
+        writeln!(out, "ITEM: BOX BOUNDS {kinds}")?;
+        for axis in 0..3 {
+            writeln!(out, "{:?} {:?}", cell.low[axis], cell.high[axis])?;
+        }
+    } else {
+        // Bounds hold the whole skewed box.
+        writeln!(out, "ITEM: BOX BOUNDS xy xz yz {kinds}")?;
+        let (low, high) = (cell.low.x + cell.slide.min(0.0), cell.high.x + cell.slide.max(0.0));
+        writeln!(out, "{low:?} {high:?} {:?}", cell.slide)?;
+        for axis in 1..3 {
+            writeln!(out, "{:?} {:?} 0.0", cell.low[axis], cell.high[axis])?;
+        }
     }
     write!(out, "ITEM: ATOMS id type x y z")?;
     let others = [
@@ -93,26 +106,42 @@ fn parsed<T: std::str::FromStr>(item: &str, value: &str) -> Result<T, Problem> {
 
 fn bounds<R: Read>(kinds: &str, lines: &mut Lines<R>) -> Result<FrameBox, Fault> {
     let kinds: Vec<&str> = kinds.split_whitespace().collect();
-    let is_periodic = match kinds.len() {
-        // Old versions name no kinds.
-        0 => [true; 3],
-        3 => [0, 1, 2].map(|axis| kinds[axis] == "pp"),
-        _ => return Err(Problem::from("a box with skewed edges is not read").into()),
+    let (is_skewed, kinds) = match kinds[..] {
+        ["xy", "xz", "yz", ref kinds @ ..] => (true, kinds),
+        ref kinds => (false, kinds),
     };
-    let (mut low, mut high) = (DVec3::ZERO, DVec3::ZERO);
+    let is_periodic = match *kinds {
+        // Old versions name no kinds.
+        [] => [true; 3],
+        [x, y, z] => [x, y, z].map(|kind| kind == "pp"),
+        _ => return Err(Problem::from(SKEWED).into()),
+    };
+    let (mut low, mut high, mut tilts) = (DVec3::ZERO, DVec3::ZERO, [0.0; 3]);
     for axis in 0..3 {
         let Some(line) = lines.next()? else { return Err(Fault::CutShort) };
         let numbers: Vec<f64> = line.split_whitespace().filter_map(|it| it.parse().ok()).collect();
-        let [from, to] = numbers[..] else {
-            return Err(Problem::from(format!(
-                "expected two bounds of the box, not {}",
-                shown(&line)
-            ))
-            .into());
+        (low[axis], high[axis], tilts[axis]) = match (is_skewed, &numbers[..]) {
+            (false, &[from, to]) => (from, to, 0.0),
+            (true, &[from, to, tilt]) => (from, to, tilt),
+            _ => {
+                let problem = format!("expected two bounds of the box, not {}", shown(&line));
+                return Err(Problem::from(problem).into());
+            }
         };
-        (low[axis], high[axis]) = (from, to);
     }
-    let cell = FrameBox { low, high, is_periodic };
+    let [slide, 0.0, 0.0] = tilts else { return Err(Problem::from(SKEWED).into()) };
+    // Bounds hold the whole skewed box.
+    low.x -= slide.min(0.0);
+    high.x -= slide.max(0.0);
+    // A box about the origin stays one, whatever the bounds were rounded to.
+    if (low.x + high.x).abs() <= ROUNDING * high.x {
+        if slide < 0.0 {
+            low.x = -high.x;
+        } else {
+            high.x = -low.x;
+        }
+    }
+    let cell = FrameBox { low, high, is_periodic, slide };
     cell.check()?;
     Ok(cell)
 }

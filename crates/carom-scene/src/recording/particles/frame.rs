@@ -4,7 +4,7 @@ use carom::{Boundary, DVec3, SOLID_BALL, World};
 
 use super::columns::Columns;
 use super::error::Problem;
-use crate::recording::rotation;
+use crate::recording::{rotation, slide};
 
 /// State of all particles at one time.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -13,6 +13,8 @@ pub struct ParticleFrame {
     pub time: Option<f64>,
     /// Sides of the periodic box around the origin \[m\], infinite along open axes.
     pub sides: [f64; 3],
+    /// Way along x by which the box above, along y, is beside this one \[m\], in steady shear.
+    pub slide: Option<f64>,
     /// Numbers of the particles, ascending.
     pub ids: Vec<u64>,
     /// Centres \[m\].
@@ -50,6 +52,7 @@ impl ParticleFrame {
                 Boundary::Periodic { size } => size.to_array(),
                 _ => [f64::INFINITY; 3],
             },
+            slide: slide(world.settings(), world.time()),
             ids: spheres.ids().iter().map(|id| id.number()).collect(),
             positions: vectors(spheres.positions()),
             velocities: Some(vectors(spheres.velocities())),
@@ -74,6 +77,8 @@ pub(super) struct FrameBox {
     pub high: DVec3,
     /// Whether space repeats itself along each axis.
     pub is_periodic: [bool; 3],
+    /// Way along x by which the box above, along y, is beside this one \[m\].
+    pub slide: f64,
 }
 
 impl FrameBox {
@@ -88,7 +93,7 @@ impl FrameBox {
         let is_periodic = frame.sides.map(f64::is_finite);
         let low = DVec3::select(is_finite, -0.5 * size, low.unwrap_or_default());
         let high = DVec3::select(is_finite, 0.5 * size, high.unwrap_or_default());
-        Self { low, high, is_periodic }
+        Self { low, high, is_periodic, slide: frame.slide.unwrap_or(0.0) }
     }
 
     /// Returns whether any axis is periodic.
@@ -118,9 +123,16 @@ impl FrameBox {
         if (0..3).any(|axis| self.is_periodic[axis] && self.high[axis] <= self.low[axis]) {
             return Err("a periodic edge of the box must be longer than 0".into());
         }
+        let is_sheared = self.slide != 0.0;
+        if !self.slide.is_finite() || is_sheared && !(self.is_periodic[0] && self.is_periodic[1]) {
+            return Err("a skewed box must be periodic along x and y".into());
+        }
         Ok(())
     }
 }
+
+/// What a box is whose edges are skewed along other axes.
+pub(super) const SKEWED: &str = "a box is read with skewed edges in steady shear only: y along x";
 
 /// What the lines before the particles say.
 #[derive(Debug, Clone, PartialEq)]

@@ -61,6 +61,10 @@ pub fn import_particles(
         }
         _ => {}
     }
+    if frame.slide.is_some_and(|slide| slide != 0.0) {
+        let problem = "a scene begins with aligned boxes: the one above has slid".to_owned();
+        return Err(ParticleError::Binary { path: path.to_owned(), problem });
+    }
     let name = path.file_stem().unwrap_or_default().to_string_lossy();
     let mut scene = Scene::new(plain_name(&name));
     let file = path.file_name().unwrap_or_default().to_string_lossy();

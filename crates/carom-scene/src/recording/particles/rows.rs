@@ -43,6 +43,7 @@ pub(super) fn parse(
     Ok(ParticleFrame {
         time: frame.header.time,
         sides: cell.map_or([f64::INFINITY; 3], |cell| cell.period()),
+        slide: cell.map(|cell| cell.slide).filter(|&slide| slide != 0.0),
         ids: rows.iter().map(of).collect(),
         positions: rows.iter().map(|row| row.position).collect(),
         velocities: rows.iter().map(|row| row.velocity).collect(),
@@ -113,7 +114,9 @@ fn position(columns: &Columns, header: &Header, row: &[&str]) -> Result<[f64; 3]
     let Some(cell) = header.cell else { return Ok(read) };
     let mut position = DVec3::from_array(read);
     if columns.is_scaled {
+        let along = position.y * cell.slide;
         position = cell.low + position * (cell.high - cell.low);
+        position.x += along;
     }
     let shift = cell.shift_to_origin();
     // Where nothing is moved, -0 stays -0.

@@ -6,7 +6,7 @@ use carom::DVec3;
 
 use super::columns::{Columns, Quantity};
 use super::error::{Fault, Problem, shown};
-use super::frame::{FrameBox, Header, ParticleFrame};
+use super::frame::{FrameBox, Header, ParticleFrame, SKEWED};
 use super::lines::Lines;
 
 /// The symbol of a particle that is no atom.
@@ -21,10 +21,11 @@ pub(super) fn write_header(
     if cell.repeats() {
         let [x, y, z] = (cell.high - cell.low).to_array();
         let origin = cell.low.to_array().map(|it| format!("{it:?}")).join(" ");
+        let slide = if cell.slide == 0.0 { "0".to_owned() } else { format!("{:?}", cell.slide) };
         let letters = cell.is_periodic.map(|it| if it { "T" } else { "F" }).join(" ");
         write!(
             out,
-            "Lattice=\"{x:?} 0 0 0 {y:?} 0 0 0 {z:?}\" Origin=\"{origin}\" pbc=\"{letters}\" "
+            "Lattice=\"{x:?} 0 0 {slide} {y:?} 0 0 0 {z:?}\" Origin=\"{origin}\" pbc=\"{letters}\" "
         )?;
     }
     // Programs that know plain XYZ only take the columns after the species for the position.
@@ -150,8 +151,8 @@ fn quantity(name: &str) -> Option<Quantity> {
 
 fn cell_of(lattice: &str, origin: Option<&str>, pbc: Option<&str>) -> Result<FrameBox, Problem> {
     let edges: [f64; 9] = numbers("Lattice", lattice)?;
-    if (0..9).any(|i| i % 4 != 0 && edges[i] != 0.0) {
-        return Err("Lattice: a box with edges along other lines than the axes is not read".into());
+    if (0..9).any(|i| i % 4 != 0 && i != 3 && edges[i] != 0.0) {
+        return Err(format!("Lattice: {SKEWED}").into());
     }
     let low = origin.map_or(Ok([0.0; 3]), |origin| numbers("Origin", origin))?;
     let low = DVec3::from_array(low);
@@ -160,7 +161,8 @@ fn cell_of(lattice: &str, origin: Option<&str>, pbc: Option<&str>) -> Result<Fra
         return Err("pbc: expected three letters, T or F".into());
     };
     let is_periodic = [x, y, z].map(|it| matches!(it, "T" | "True" | "true" | "1"));
-    let cell = FrameBox { low, high: low + DVec3::new(edges[0], edges[4], edges[8]), is_periodic };
+    let high = low + DVec3::new(edges[0], edges[4], edges[8]);
+    let cell = FrameBox { low, high, is_periodic, slide: edges[3] };
     cell.check()?;
     Ok(cell)
 }

@@ -7,10 +7,10 @@ use carom::{DQuat, DVec3};
 
 use super::chunk::Chunk;
 use super::chunks::{Chunks, Fault};
-use crate::recording::particles::frame::{FrameBox, ParticleFrame};
+use crate::recording::particles::frame::{FrameBox, ParticleFrame, SKEWED};
 
 /// Names of all chunks that frames may have, in the order in which they are written.
-pub(super) const NAMES: [&str; 20] = [
+pub(super) const NAMES: [&str; 21] = [
     "configuration/step",
     "configuration/box",
     "particles/N",
@@ -31,6 +31,7 @@ pub(super) const NAMES: [&str; 20] = [
     "log/particles/mass",
     "log/particles/orientation",
     "log/particles/angular_velocity",
+    "log/slide",
 ];
 
 /// Returns the chunks of a frame with the places of their names in [`NAMES`], ascending.
@@ -52,6 +53,9 @@ pub(super) fn chunks(
     put("log/periodic", Chunk::bytes(&frame.sides.map(|side| u8::from(side.is_finite()))));
     let own = frame.sides.map(|side| if side.is_finite() { side } else { 0.0 });
     put("log/box", Chunk::double(&own, 1));
+    if let Some(slide) = frame.slide {
+        put("log/slide", Chunk::double(&[slide], 1));
+    }
     put("log/particles/id", Chunk::uint64(&frame.ids));
     let vectors = frame.positions.as_flattened();
     put("particles/position", Chunk::single(vectors, 3));
@@ -115,7 +119,12 @@ fn shown_box(frame: &ParticleFrame) -> [f64; 6] {
         let reach = 2.0 * cell.low[axis].abs().max(cell.high[axis].abs());
         if reach > 0.0 { reach } else { 1.0 }
     };
-    [side(0), side(1), side(2), 0.0, 0.0, 0.0]
+    [side(0), side(1), side(2), tilt(cell.slide, side(1)), 0.0, 0.0]
+}
+
+/// The tilt factor of HOOMD-blue: the slide of the box above in parts of the edge along y.
+fn tilt(slide: f64, edge: f64) -> f64 {
+    if slide == 0.0 { 0.0 } else { slide / edge }
 }
 
 /// Reads a frame.
@@ -144,9 +153,11 @@ pub(super) fn frame(chunks: &mut Chunks, frame: u64) -> Result<ParticleFrame, Fa
         found => found,
     };
     let masses = source.exact("particles/mass", "log/particles/mass", 1.0, count)?;
+    let sides = source.sides()?;
     Ok(ParticleFrame {
         time: source.reals("log/time", 1)?.map(|all: Vec<[f64; 1]>| all[0][0]),
-        sides: source.sides()?,
+        sides,
+        slide: source.slide(sides)?,
         ids: ids.unwrap_or_else(|| (0..count).collect()),
         positions,
         velocities: source.exact("particles/velocity", "log/particles/velocity", 1.0, count)?,
@@ -250,8 +261,8 @@ impl Source<'_> {
         let Some(shown) = self.reals::<1>("configuration/box", 6)?.map(flat) else {
             return Ok([f64::INFINITY; 3]);
         };
-        if shown[3..].iter().any(|&tilt| tilt != 0.0) {
-            return Err("a box with skewed edges is not read".into());
+        if shown[4..].iter().any(|&tilt| tilt != 0.0) {
+            return Err(SKEWED.into());
         }
         let periodic = self.whole("log/periodic", 3)?;
         let exact = self.reals::<1>("log/box", 3)?.map(flat);
@@ -269,5 +280,19 @@ impl Source<'_> {
             }
         }
         Ok(sides)
+    }
+
+    /// Reads the slide of the box above \[m\]: that of Carom where it is that of HOOMD-blue.
+    fn slide(&mut self, sides: [f64; 3]) -> Result<Option<f64>, Fault> {
+        let shown = self.reals::<1>("configuration/box", 6)?.map_or(0.0, |all| all[3][0]);
+        if shown == 0.0 {
+            return Ok(None);
+        }
+        if !(sides[0].is_finite() && sides[1].is_finite()) {
+            return Err(SKEWED.into());
+        }
+        let own = self.reals::<1>("log/slide", 1)?.map(|all| all[0][0]);
+        let own = own.filter(|&own| f64::from(tilt(own, sides[1]) as f32) == shown);
+        Ok(Some(own.unwrap_or(shown * sides[1])))
     }
 }
