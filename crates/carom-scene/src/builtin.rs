@@ -32,6 +32,7 @@ embed!(
     "vibrated-plate.toml",
     "gates.toml",
     "fermi.toml",
+    "bank-shot.toml",
     "butterfly.toml",
     "draw-shot.toml",
     "masse.toml",

@@ -1,6 +1,6 @@
 //! Strikes and pockets of scene files, and the tables of scenes.
 
-use carom::{DVec3, QueryFilter, Tangents, Variation, World};
+use carom::{DVec3, QueryFilter, SphereTangent, Tangents, Tape, Variation, World};
 use carom_scene::{Library, Scene};
 
 const TEXT: &str = "name = 'shot'
@@ -83,6 +83,26 @@ fn nine_balls_stay_on_the_table_until_they_fall_into_pockets() {
     // Rounding of the energy of the cue ball.
     let off = world.total_energy() - before - account;
     assert!(off.abs() < 1e-12 * before, "{off} of {before}");
+}
+
+#[test]
+fn the_strike_that_descent_found_stops_the_object_ball_on_the_mark() {
+    let (scene, _) = Library::new().find("bank-shot", &[]).unwrap();
+    let mut world = scene.world().unwrap();
+    let mut tape = Tape::start(&world).unwrap();
+    for _ in 0..480 {
+        tape.step(&mut world, scene.simulation.frame_time).unwrap();
+    }
+    // The cushion, then the ball.
+    assert_eq!(tape.impacts(), 2);
+    let mark = DVec3::new(1.1, 0.028575, -0.2);
+    let off = world.spheres().positions()[1] - mark;
+    assert!(off.length() < 1e-12, "{off}");
+    // So no small change of the strike brings it nearer.
+    let miss = SphereTangent { position: off, ..SphereTangent::default() };
+    let [struck, object] = [0, 1].map(|place| world.spheres().ids()[place]);
+    let slope = tape.gradient(&[(object, miss)]).unwrap().sphere(struck).velocity;
+    assert!(slope.length() < 1e-11, "{slope}");
 }
 
 /// How far each ball of the right table of `butterfly` is from its place on the left table.
