@@ -196,3 +196,38 @@ fn a_ball_on_a_lift_or_a_belt_agrees_with_differences_and_with_the_gradient() {
         check((&world, gravity), &direction, [1e-3, 1e-7]);
     }
 }
+
+#[test]
+fn derivatives_of_held_balls_have_the_units_of_the_world() {
+    // A groove that ends in a wall, and a table that a ball leaves.
+    let by_start = |size: f64| {
+        let unit = size.sqrt();
+        let mut world = world_with(vec(0.0, -G, 1.5));
+        for side in [-1.0, 1.0] {
+            let angle = side * std::f64::consts::FRAC_PI_4;
+            world.add_collider(half_space(DVec3::ZERO, angle)).unwrap();
+        }
+        let table = Shape::Box { size: size * vec(1.0, 1.0, 4.0) };
+        let table = Collider::new(table, Pose::at(size * vec(0.0, 4.5, 0.0)));
+        world.add_collider(table.with_restitution(0.0)).unwrap();
+        let in_groove = Sphere::new(size * vec(0.1, 0.8, 0.0), 0.1 * size);
+        let on_table = Sphere::new(size * vec(0.0, 5.2, 0.0), 0.1 * size);
+        let on_table = on_table.with_velocity(unit * vec(1.5, 0.0, 0.0));
+        let balls = [in_groove, on_table].map(|it| world.add_sphere(it).unwrap());
+        let mut tape = Tape::start(&world).unwrap();
+        for _ in 0..6 {
+            tape.step(&mut world, 0.1 * unit).unwrap();
+        }
+        balls.map(|ball| {
+            let place = SphereTangent { position: vec(1.0, 2.0, 3.0), ..SphereTangent::default() };
+            let by = tape.gradient(&[(ball, place)]).unwrap();
+            by.sphere(ball).velocity / unit
+        })
+    };
+    let usual = by_start(1.0);
+    for size in [f64::from(1 << 20), 1.0 / f64::from(1 << 20)] {
+        for (scaled, usual) in by_start(size).into_iter().zip(usual) {
+            assert!((scaled - usual).length() < 1e-9 * usual.length(), "{scaled} {usual}");
+        }
+    }
+}
