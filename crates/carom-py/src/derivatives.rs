@@ -19,8 +19,8 @@ use crate::in_use::lock;
 
 type Numbers<'py> = PyReadonlyArray1<'py, f64>;
 type Row<'py> = Bound<'py, PyArray1<f64>>;
-/// Directness, the sphere and time of that impact, interval, and the sphere and time of that one; -1 for no sphere.
-type MarginNumbers = (f64, i64, f64, f64, i64, f64);
+/// Directness, interval and activity, each with the sphere and the time of that impact; -1 for no sphere.
+type MarginNumbers = [(f64, i64, f64); 3];
 
 /// The record of a run, behind `carom.Tape`.
 #[pyclass(frozen, module = "carom._carom")]
@@ -128,6 +128,7 @@ impl TapeEngine {
             sphere_rows(|it| vec![it.friction]),
             sphere_rows(|it| it.acceleration.to_array().to_vec()),
             collider_rows(|it| it.position.to_array().to_vec()),
+            collider_rows(|it| it.rotation.to_array().to_vec()),
             collider_rows(|it| it.velocity.to_array().to_vec()),
             collider_rows(|it| vec![it.restitution]),
             collider_rows(|it| vec![it.friction]),
@@ -244,10 +245,10 @@ fn vectors(numbers: &Numbers<'_>) -> PyResult<Vec<DVec3>> {
 }
 
 fn numbers_of(margin: Margin) -> MarginNumbers {
-    let event = |event: Option<(SphereId, f64)>| {
-        event.map_or((-1, f64::NAN), |(sphere, time)| (sphere.number() as i64, time))
+    let numbers = |value: f64, event: Option<(SphereId, f64)>| match event {
+        Some((sphere, time)) => (value, sphere.number() as i64, time),
+        None => (value, -1, f64::NAN),
     };
-    let Margin { directness, most_grazing, interval, closest, .. } = margin;
-    let ((grazing, grazes), (close, closes)) = (event(most_grazing), event(closest));
-    (directness, grazing, grazes, interval, close, closes)
+    let Margin { directness, most_grazing, interval, closest, activity, least_active, .. } = margin;
+    [numbers(directness, most_grazing), numbers(interval, closest), numbers(activity, least_active)]
 }

@@ -27,6 +27,10 @@ class Margin:
         interval: The shortest time between two impacts of one sphere [s]; inf if none had two.
         closest: Id of that sphere; None if there is none.
         closest_time: When the second of the two was, on the world's clock [s]; nan if none was.
+        activity: How near an impact on a group of touching bodies was to pressing other contacts:
+            the smallest impulse or rate of opening as a part of the largest. 1 if there was none.
+        least_active: Id of a sphere of that group; None if there was none.
+        least_active_time: When that was, on the world's clock [s]; nan if there was none.
     """
 
     directness: float
@@ -35,6 +39,9 @@ class Margin:
     interval: float
     closest: int | None
     closest_time: float
+    activity: float
+    least_active: int | None
+    least_active_time: float
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -54,6 +61,8 @@ class Gradient:
         frictions: By their coefficients of sliding friction, shape (n,).
         accelerations: By a constant acceleration of each, as by an applied force, shape (n, 3).
         collider_positions: By the places of colliders, shape (m, 3).
+        collider_rotations: By rotations about these, an angle [rad] along its axis, shape (m, 3);
+            nan for colliders that move, bear spheres or are met by groups.
         collider_velocities: By their velocities, shape (m, 3).
         collider_restitutions: By their coefficients of restitution, shape (m,).
         collider_frictions: By their coefficients of sliding friction, shape (m,).
@@ -72,6 +81,7 @@ class Gradient:
     frictions: Array
     accelerations: Array
     collider_positions: Array
+    collider_rotations: Array
     collider_velocities: Array
     collider_restitutions: Array
     collider_frictions: Array
@@ -112,11 +122,11 @@ class Tape(Followed):
     """A record of a run, which gives the gradient of a number by all that the run started with.
 
     Derivatives are known of worlds under the rule ``exact`` whose spheres fly freely or on springs,
-    under the forces of this package, or slide, roll and rest on single planes, and meet each other
-    and surfaces one at a time, with or without friction. A ball may meet several that touch, as in
-    a cradle or a rack: the gradient is then that along changes that keep these in touch, and the
-    interval of the margin is 0. What has no derivative is an error, never a guess: several bodies
-    that meet at one instant, or spheres pressed against several bodies.
+    under the forces of this package, or slide, roll and rest on single planes, or between smooth
+    ones, and meet each other and surfaces one at a time, with or without friction. A ball may meet
+    several that touch, as in a cradle or a rack: the gradient is then that along changes that keep
+    these in touch, and the interval of the margin is 0. What has no derivative is an error, never a
+    guess: several bodies that meet at one instant, or spheres pressed against each other.
 
     >>> import carom
     >>> world = carom.World()
@@ -176,7 +186,7 @@ class Tape(Followed):
         }
         rows = [_numbers(name, values, shape) for name, values in given.items()]
         numbers = self._engine.gradient(rows)
-        spheres, colliders, springs = numbers[:8], numbers[8:12], numbers[12:15]
+        spheres, colliders, springs = numbers[:8], numbers[8:13], numbers[13:16]
         return Gradient(
             positions=spheres[0].reshape(-1, 3),
             velocities=spheres[1].reshape(-1, 3),
@@ -187,13 +197,14 @@ class Tape(Followed):
             frictions=spheres[6],
             accelerations=spheres[7].reshape(-1, 3),
             collider_positions=colliders[0].reshape(-1, 3),
-            collider_velocities=colliders[1].reshape(-1, 3),
-            collider_restitutions=colliders[2],
-            collider_frictions=colliders[3],
+            collider_rotations=colliders[1].reshape(-1, 3),
+            collider_velocities=colliders[2].reshape(-1, 3),
+            collider_restitutions=colliders[3],
+            collider_frictions=colliders[4],
             spring_stiffnesses=springs[0],
             spring_rest_lengths=springs[1],
             spring_dampings=springs[2],
-            acceleration=numbers[15],
+            acceleration=numbers[16],
         )
 
 
@@ -301,13 +312,18 @@ def _numbers(name: str, values: ArrayLike | None, shape: tuple[int, ...]) -> Arr
     return np.ascontiguousarray(numbers).ravel()
 
 
-def _margin(numbers: tuple[float, int, float, float, int, float]) -> Margin:
-    directness, grazing, grazes, interval, closest, closes = numbers
+def _margin(numbers: list[tuple[float, int, float]]) -> Margin:
+    spheres = [None if sphere < 0 else sphere for _, sphere, _ in numbers]
+    directness, interval, activity = [value for value, _, _ in numbers]
+    times = [time for _, _, time in numbers]
     return Margin(
         directness=directness,
-        most_grazing=None if grazing < 0 else grazing,
-        most_grazing_time=grazes,
+        most_grazing=spheres[0],
+        most_grazing_time=times[0],
         interval=interval,
-        closest=None if closest < 0 else closest,
-        closest_time=closes,
+        closest=spheres[1],
+        closest_time=times[1],
+        activity=activity,
+        least_active=spheres[2],
+        least_active_time=times[2],
     )
