@@ -15,6 +15,10 @@ fn pair(scene: &Scene, _: &Trace) -> Option<Pair> {
     {
         return None;
     }
+    // What a generator draws is not mirrored.
+    if !scene.generators.is_empty() {
+        return None;
+    }
     // The cells of height fields and tracks are divided along the diagonals of one direction.
     let has_cells = |it: &Collider| matches!(it.shape, Shape::HeightField(_) | Shape::Track(_));
     if scene.colliders.iter().any(has_cells) {

@@ -28,6 +28,7 @@ fn pair(scene: &Scene, _: &Trace) -> Option<Pair> {
     let is_fixed = is_fixed
         || is_plastic
         || !scene.emitters.is_empty()
+        || !scene.generators.is_empty()
         // Its temperature is that of motion relative to rest.
         || scene.simulation.thermostat.is_some()
         || scene.settings().shear_rate != 0.0

@@ -46,6 +46,16 @@ pub fn run(
     Ok(())
 }
 
+/// Returns whether spheres of a scene grow until they have no room left, which ends its run.
+pub fn jams(scene: &Scene) -> Result<bool, Fault> {
+    if scene.spheres.iter().all(|it| it.growth_speed == 0.0) {
+        return Ok(false);
+    }
+    let mut world = world(scene)?;
+    let mut ends = (0..FRAMES).map(|_| world.step(scene.simulation.frame_time).err());
+    Ok(ends.any(|it| matches!(it, Some(carom::Error::NoRoomToGrow { .. }))))
+}
+
 /// Steps a world by a frame of its scene.
 pub fn step(scene: &Scene, world: &mut World) -> Result<(), Fault> {
     match world.step(scene.simulation.frame_time) {

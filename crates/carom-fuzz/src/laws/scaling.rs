@@ -4,8 +4,8 @@
 use carom::DVec3;
 use carom_scene::Scene;
 use carom_scene::scene::{
-    Boundary, Collider, Emitter, Force, Motion, PairPotential, Piece, RestitutionLaw, Shape,
-    Sphere, Spring, Thermostat,
+    Boundary, Collider, Emitter, Force, Generator, Motion, PairPotential, Piece, RestitutionLaw,
+    Shape, Sphere, Spring, Thermostat,
 };
 
 use super::pair::{Agreement, Law, Pair};
@@ -79,6 +79,7 @@ fn scaled(scene: &Scene, scale: Scale) -> Scene {
     scene.spheres.iter_mut().for_each(|it| scale_sphere(it, scale));
     let laws = scene.material_pairs.iter_mut().filter_map(|it| it.restitution_law.as_mut());
     laws.for_each(|it| scale_law(it, scale));
+    scene.generators.iter_mut().for_each(|it| scale_generator(it, scale));
     scene.springs.iter_mut().for_each(|it| scale_spring(it, scale));
     scene.colliders.iter_mut().for_each(|it| scale_collider(it, scale));
     for Emitter { position, period, sphere, .. } in &mut scene.emitters {
@@ -123,6 +124,16 @@ fn scale_sphere(sphere: &mut Sphere, scale: Scale) {
         *sphere.mass.get_or_insert(1.0) *= scale.of(0, 1, 0);
     }
     sphere.density.iter_mut().for_each(|it| *it *= scale.of(-3, 1, 0));
+}
+
+/// Scales a dense fluid; worlds have no other generators.
+fn scale_generator(generator: &mut Generator, scale: Scale) {
+    let Generator::DenseFluid(fluid) = generator else { return };
+    fluid.temperature *= scale.of(2, 1, -2);
+    fluid.radius_range.iter_mut().flatten().for_each(|it| *it *= scale.of(1, 0, 0));
+    let corners = fluid.min.iter_mut().chain(&mut fluid.max);
+    corners.for_each(|it| scale_vector(it, scale.of(1, 0, 0)));
+    scale_sphere(&mut fluid.sphere, scale);
 }
 
 fn scale_law(law: &mut RestitutionLaw, scale: Scale) {

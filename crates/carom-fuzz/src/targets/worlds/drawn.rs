@@ -29,6 +29,17 @@ pub struct Drawn {
     pub springs: Option<Springs>,
     /// Rate at which radii grow \[1/s\].
     pub growth: Option<f64>,
+    pub fluid: Option<Fluid>,
+}
+
+/// A dense fluid in place of balls.
+#[derive(Debug, Clone)]
+pub struct Fluid {
+    pub count: u32,
+    pub packing_fraction: f64,
+    /// Temperature k T \[J\].
+    pub temperature: f64,
+    pub seed: u32,
 }
 
 /// The enclosure of the balls.
@@ -156,11 +167,11 @@ pub fn drawn() -> impl Strategy<Value = Drawn> {
         vec(obstacle(), 0..3),
         (vec(ball(), 0..14), select(&[1.0, 1.0, 0.4][..])),
         weighted(0.2, springs()),
-        weighted(0.04, 0.01..0.3),
+        (weighted(0.04, 0.01..0.3), weighted(0.04, fluid())),
     );
     (settings, bodies).prop_map(|(settings, bodies)| {
         let ((rule, is_flat), choices, around, material, forces) = settings;
-        let (has_floor, emitter, obstacles, (balls, crowding), springs, growth) = bodies;
+        let (has_floor, emitter, obstacles, (balls, crowding), springs, (growth, fluid)) = bodies;
         Drawn {
             rule,
             is_flat,
@@ -175,6 +186,7 @@ pub fn drawn() -> impl Strategy<Value = Drawn> {
             crowding,
             springs,
             growth,
+            fluid,
         }
     })
 }
@@ -294,6 +306,17 @@ const FIELDS: [&str; 10] = [
     "point-attractor = { position = [0.1, -0.6, 0.0], gravitational_parameter = 5.0, softening = 0.3 }",
     "mutual-gravity = { constant = 1e-4, softening = 0.3 }",
 ];
+
+fn fluid() -> impl Strategy<Value = Fluid> {
+    (1..40u32, 0.05..0.58, select(&[0.0, 1.0, 30.0][..]), any::<u32>()).prop_map(
+        |(count, packing_fraction, temperature, seed)| Fluid {
+            count,
+            packing_fraction,
+            temperature,
+            seed,
+        },
+    )
+}
 
 fn emitter() -> impl Strategy<Value = Emitter> {
     (0.1..0.5, 1..4u32, any::<bool>(), proptest::bool::weighted(0.8)).prop_map(

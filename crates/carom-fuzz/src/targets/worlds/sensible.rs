@@ -27,6 +27,9 @@ pub fn sensible(mut drawn: Drawn) -> Drawn {
     if drawn.growth.is_some() {
         drawn = growing(drawn);
     }
+    if drawn.fluid.is_some() {
+        drawn = filled(drawn);
+    }
     if drawn.is_flat {
         drawn = flat(drawn);
     }
@@ -69,6 +72,24 @@ fn growing(drawn: Drawn) -> Drawn {
     drawn.around.parts.clear();
     if drawn.around.kind == "sheared" {
         drawn.around.kind = "periodic";
+    }
+    drawn
+}
+
+/// Reduces a world to a dense fluid in a box at rest, or a periodic one.
+fn filled(mut drawn: Drawn) -> Drawn {
+    drawn.balls.clear();
+    drawn.obstacles.clear();
+    (drawn.has_floor, drawn.emitter, drawn.springs, drawn.growth) = (false, None, None, None);
+    // It is made without regard to pairs.
+    drawn.material.non_additivity = None;
+    let around = &mut drawn.around;
+    (around.turn, around.velocity, around.spin) = ([0.0; 3], None, None);
+    around.parts.clear();
+    if drawn.is_flat {
+        around.kind = "periodic";
+    } else if around.kind != "periodic" && around.kind != "sheared" {
+        around.kind = "container";
     }
     drawn
 }

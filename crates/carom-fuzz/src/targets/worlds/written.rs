@@ -2,7 +2,7 @@
 
 use carom::{DQuat, DVec3};
 
-use super::drawn::{Drawn, Emitter, Material, Obstacle, Shear, Springs};
+use super::drawn::{Drawn, Emitter, Fluid, Material, Obstacle, Shear, Springs};
 use super::placed::{Placed, placed};
 use super::vector::{HALF, Vector, sum};
 
@@ -23,6 +23,7 @@ pub fn written(drawn: &Drawn) -> String {
         simulation(drawn),
         drawn.forces.iter().map(|it| format!("[[forces]]\n{it}\n")).collect(),
         placed.iter().map(|it| ball(drawn, it, &balls[usize::from(it.is_other)])).collect(),
+        drawn.fluid.as_ref().map_or(String::new(), |it| fluid(drawn, it, &balls[0])),
         drawn.springs.as_ref().map_or(String::new(), |it| springs(it, placed.len())),
         around(drawn, &material),
         if drawn.has_floor { floor(drawn, &material) } else { String::new() },
@@ -115,6 +116,20 @@ fn ball(drawn: &Drawn, placed: &Placed, material: &str) -> String {
         "[[spheres]]\nposition = {position:?}\nvelocity = {velocity:?}\nradius = {radius:?}\n\
          mass = {mass:?}\ninertia_factor = {:?}\n{spin}{growth}{groups}{material}",
         ball.inertia
+    )
+}
+
+fn fluid(drawn: &Drawn, fluid: &Fluid, material: &str) -> String {
+    let Fluid { count, packing_fraction, temperature, seed } = fluid;
+    let corners = if drawn.around.kind == "container" {
+        format!("min = {:?}\nmax = {:?}\n", [-HALF; 3], [HALF; 3])
+    } else {
+        String::new()
+    };
+    format!(
+        "[[generators]]\n[generators.dense-fluid]\ncount = {count}\n\
+         packing_fraction = {packing_fraction:?}\ntemperature = {temperature:?}\nseed = {seed}\n\
+         {corners}[generators.dense-fluid.sphere]\n{material}"
     )
 }
 
