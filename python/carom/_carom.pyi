@@ -70,6 +70,7 @@ _MazeStep: TypeAlias = tuple[
     _MazeStates,
 ]
 
+_Numbers: TypeAlias = NDArray[np.float64]
 _Worlds: TypeAlias = NDArray[np.int64] | None
 _Pose: TypeAlias = tuple[int, ArrayLike | None, ArrayLike | None]
 _Poses: TypeAlias = _Pose | None
@@ -386,11 +387,7 @@ class TangentsEngine:
     """What `carom.Tangents` stands on."""
 
     def __new__(
-        cls,
-        world: Engine,
-        count: int,
-        motion: Sequence[NDArray[np.float64]],
-        accelerations: NDArray[np.float64],
+        cls, world: Engine, count: int, motion: Sequence[_Numbers], accelerations: _Numbers
     ) -> Self: ...
     def step(self, world: Engine, dt: float | None, frames: int) -> None: ...
     def motion(self) -> list[NDArray[np.float64]]: ...

@@ -23,6 +23,7 @@ mod recovery;
 mod replay;
 mod rotation;
 mod short_lines;
+mod slide;
 mod table_file;
 mod vtk;
 mod wells;
@@ -30,7 +31,7 @@ mod wells;
 use std::io;
 use std::path::{Path, PathBuf};
 
-use carom::{Boundary, Settings, World};
+use carom::World;
 
 pub use error::RecordingError;
 pub use format::Format;
@@ -44,20 +45,10 @@ pub use playback::Playback;
 pub use recovered::{Recovered, RecoveryError, complete, recover_by};
 pub use recovery::{recover, recover_table};
 pub use replay::{LineProblem, Replay, ReplayBall, ReplayError, ReplayFrame};
+pub use slide::slide;
 pub use wells::WellTable;
 
 use error::unwritable;
-
-/// Returns the way along x by which the box above, along y, is beside a box in steady shear at a time \[m\]: at most
-/// half an edge. `None` without shear.
-pub fn slide(settings: &Settings, time: f64) -> Option<f64> {
-    let Settings { boundary: Boundary::Periodic { size }, shear_rate, .. } = *settings else {
-        return None;
-    };
-    // The remainder is exact, and so is what is left of it.
-    let rest = libm::fmod(shear_rate * size.y * time, size.x);
-    (shear_rate != 0.0).then(|| rest - (rest / size.x).round() * size.x)
-}
 
 /// Writes the states of a world, frame by frame.
 ///

@@ -10,7 +10,7 @@ use carom::{Boundary, World};
 
 use super::records::{self, CHUNK, HEAD, Magic, RecordWriter, WORD, Words, parse_head};
 use super::rotation::{angular_velocity, orientation};
-use super::slide;
+use super::slide::slide;
 
 /// First bytes of a journal.
 const MAGIC: &Magic = b"carom npz 1\x1a\r\n\0\0";

@@ -13,7 +13,7 @@ use vtkio::model::{
 use super::each_second::EachSecond;
 use super::format::Format;
 use super::rotation::{angular_velocity, orientation};
-use super::slide;
+use super::slide::slide;
 use crate::unfinished::create_folders_of;
 
 /// Writes `NAME.pvd`, and `000000.vtp`, `000001.vtp`, ... in the folder `NAME_frames` beside it.

@@ -4,7 +4,7 @@ use carom::{Boundary, DVec3, SOLID_BALL, World};
 
 use super::columns::Columns;
 use super::error::Problem;
-use crate::recording::{rotation, slide};
+use crate::recording::{rotation, slide::slide};
 
 /// State of all particles at one time.
 #[derive(Debug, Clone, PartialEq, Default)]
