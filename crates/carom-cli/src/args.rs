@@ -332,6 +332,9 @@ pub struct Verify {
     /// Print JSON instead of a table.
     #[arg(long)]
     pub json: bool,
+    /// Print comma-separated values instead of a table, with run times and the reasons of tolerances.
+    #[arg(long, conflicts_with = "json")]
+    pub csv: bool,
 }
 
 /// Run a scene under several rules, or with changed values.

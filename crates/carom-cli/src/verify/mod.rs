@@ -16,6 +16,7 @@ mod dense;
 mod dense_flow;
 mod derivatives;
 mod diffusion;
+mod drum;
 mod equation;
 mod fluid;
 mod forces;
@@ -66,7 +67,7 @@ pub fn verify(args: &Verify) -> Result<(), Failure> {
     }
     let findings = check_all(&claims, rule_named(&args.rule));
     let report = Report::new(args, &findings);
-    report.print(args.json)?;
+    report.print(args.json, args.csv)?;
     match report.missed {
         0 => Ok(()),
         missed => Err(Failure::Fault(format!("{missed} of {} claims are missed", findings.len()))),
@@ -77,7 +78,7 @@ pub fn verify(args: &Verify) -> Result<(), Failure> {
 type Topic = (&'static str, fn() -> Vec<Claim>);
 
 /// All topics, in the order in which their claims are printed.
-const TOPICS: [Topic; 23] = [
+const TOPICS: [Topic; 24] = [
     ("motion", motion::claims),
     ("forces", forces::claims),
     ("impacts", single_impacts::claims),
@@ -100,6 +101,7 @@ const TOPICS: [Topic; 23] = [
     ("packing", packing::claims),
     ("silo", silo::claims),
     ("collapse", collapse::claims),
+    ("drum", drum::claims),
     ("course", course::claims),
 ];
 

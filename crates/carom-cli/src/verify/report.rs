@@ -30,6 +30,19 @@ pub struct Finding {
     wall_time: f64,
 }
 
+/// Columns of a table of findings; the run time is in seconds.
+const COLUMNS: [&str; 9] = [
+    "claim",
+    "expected",
+    "measured",
+    "deviation",
+    "tolerance",
+    "kind",
+    "run time",
+    "source",
+    "reason of the tolerance",
+];
+
 /// Whether a claim holds.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "lowercase")]
@@ -65,6 +78,21 @@ impl Finding {
             state_hash,
             wall_time: elapsed.as_secs_f64(),
         }
+    }
+
+    fn csv_row(&self) -> [String; COLUMNS.len()] {
+        let shown = |value: Option<f64>| value.map_or(String::new(), |value| format!("{value:?}"));
+        [
+            self.claim.clone(),
+            shown(Some(self.expected)),
+            shown(self.measured),
+            self.error.map_or(String::new(), |error| format!("{error:.1e}")),
+            format!("{:?}", self.tolerance),
+            (if self.relative { "relative" } else { "absolute" }).to_owned(),
+            format!("{:.1}", self.wall_time),
+            self.source.to_owned(),
+            self.reason.to_owned(),
+        ]
     }
 
     fn row(&self) -> Vec<String> {
@@ -124,8 +152,11 @@ impl<'a> Report<'a> {
         }
     }
 
-    pub fn print(&self, json: bool) -> io::Result<()> {
+    pub fn print(&self, json: bool, csv: bool) -> io::Result<()> {
         let mut out = io::stdout().lock();
+        if csv {
+            return self.print_csv(out);
+        }
         if json {
             serde_json::to_writer_pretty(&mut out, self)?;
             return writeln!(out);
@@ -152,5 +183,13 @@ impl<'a> Report<'a> {
         }
         writeln!(out, "{} of {} claims hold, rule {}", self.passed, self.claims.len(), self.rule)?;
         writeln!(out, "{}", self.machine)
+    }
+
+    /// Prints a row for each claim, with the columns of [`COLUMNS`].
+    fn print_csv(&self, out: impl Write) -> io::Result<()> {
+        let mut table = csv::Writer::from_writer(out);
+        table.write_record(COLUMNS)?;
+        self.claims.iter().try_for_each(|finding| table.write_record(finding.csv_row()))?;
+        table.flush()
     }
 }
