@@ -19,8 +19,10 @@ const MOST_FOR_EVENT: u64 = 1 << 10;
 /// Allowed evaluations in a tick where forces act between all spheres: close passages take many short steps.
 const MOST_WITH_SHORT_STEPS: u64 = 1 << 18;
 
-/// Allowed evaluations in a tick where only contacts bend the flights: such spheres can be in a zone instead.
+/// Allowed evaluations where only contacts bend the flights, at once, and in each tick in the long run: such spheres can be
+/// in a zone instead.
 const MOST_BEFORE_ZONE: u64 = 1 << 17;
+const BEFORE_ZONE_IN_A_TICK: u64 = 1 << 14;
 
 /// A sphere that is in no component.
 const NONE: u32 = u32::MAX;
@@ -39,7 +41,7 @@ pub(crate) struct Component {
     is_due: bool,
     /// The number of the tick of the last step.
     tick: f64,
-    /// Evaluations of the forces on a sphere in this tick.
+    /// Evaluations of the forces on a sphere in this tick, and those left of earlier ones.
     evaluations: u64,
     /// Evaluations that the events of this tick allow beyond those of every tick.
     allowed_for_events: u64,
@@ -206,8 +208,12 @@ impl Components {
         let component = &mut self.components[number as usize];
         let for_each = MOST_FOR_EACH * component.members.len() as u64;
         if component.tick != tick {
-            (component.tick, component.evaluations) = (tick, 0);
-            component.allowed_for_events = 0;
+            let ticks = if only_contacts { tick - component.tick } else { f64::INFINITY };
+            let regained = (ticks * BEFORE_ZONE_IN_A_TICK as f64) as u64;
+            let of_events = component.allowed_for_events;
+            component.evaluations =
+                component.evaluations.saturating_sub(regained.saturating_add(of_events));
+            (component.tick, component.allowed_for_events) = (tick, 0);
         }
         if component.is_due {
             component.is_due = false;
