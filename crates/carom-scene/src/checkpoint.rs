@@ -14,7 +14,7 @@ use crate::scene::Scene;
 const MAGIC: &[u8; 8] = b"carom\x1a\r\n";
 /// Version of Carom and of the layout of states; the number increases with each change of the
 /// layout.
-const VERSION: &str = concat!(env!("CARGO_PKG_VERSION"), "/32");
+const VERSION: &str = concat!(env!("CARGO_PKG_VERSION"), "/33");
 
 /// A world at one moment, with its scene and its colours.
 ///

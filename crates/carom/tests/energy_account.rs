@@ -5,7 +5,7 @@ mod common;
 
 use carom::{
     Collider, Contact, DQuat, DVec3, Emitter, EnergyAccount, Exact, Gravity, MotionPart, Pose,
-    Rule, Shape, Sphere, Spring, World,
+    Rule, Shape, Sides, Sphere, Spring, World,
 };
 use common::{G, Numbers, account_of_run, assert_close, bisect, discrete, vec, world};
 
@@ -298,4 +298,30 @@ fn what_overlaps_takes_the_work_of_its_spring_from_the_correction() {
         // Rounding of a step, and of sums of the energies.
         assert!(remainder.abs() < 1e-12 * energy, "{remainder:e} of {energy:e}, {account:?}");
     }
+}
+
+#[test]
+fn accounts_close_where_frames_end_before_what_joins_a_zone_comes_to_its_tick() {
+    let mut world = heavy_world(exact());
+    let turned = Pose::at(DVec3::ZERO).rotated(DQuat::from_rotation_z(0.4));
+    let shape = Shape::Container { size: DVec3::ONE, open: Sides::NONE };
+    let walls = Collider::new(shape, turned).with_restitution(0.3).with_friction(0.5);
+    world.add_collider(walls).unwrap();
+    for place in 0..12 {
+        let [x, y, z] = [place % 3, place / 6, place / 3 % 2].map(|it| f64::from(it) - 0.5);
+        let ball = Sphere::new(0.25 * vec(x - 0.5, y, z), 0.1).with_mass(1.0).with_restitution(0.3);
+        world.add_sphere(ball.with_friction(0.5)).unwrap();
+    }
+    let largest = 12.0 * G;
+    let mut joined = 0;
+    for frame in 0..3000 {
+        let before = world.total_energy();
+        let report = world.step(1.0 / 1500.0).unwrap();
+        joined += report.zone_account.joined;
+        let account = report.energy_account.total();
+        let missing = world.total_energy() - before - account;
+        // Rounding of some dozen energies.
+        assert!(missing.abs() < 1e-13 * largest, "{frame}: {missing:e}");
+    }
+    assert!(joined > 0);
 }

@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::changes::Changes;
 use crate::detect::sphere_surface;
 use crate::force_work::ForceWork;
 use crate::forces::{self, SphereState};
@@ -174,38 +175,39 @@ fn under_forces(
     [before + 0.5 * gained, velocity + gained]
 }
 
-/// Accounts for the energy that a sphere with this centre \[m\] gains as it moves with a mean velocity from a time until
-/// the next tick \[s\], while its velocity changes from one to another \[m/s\]: what its forces do not do, the spheres or
-/// surfaces do with which it moves. Returns the part of its forces that has a potential, or is a damper \[N\].
+/// Returns the changes of energy of a sphere with this centre \[m\] that moves with a mean velocity from a time until the
+/// next tick \[s\], while its velocity changes from one to another \[m/s\]: what its forces do not do, the spheres or
+/// surfaces do with which it moves; and the part of its forces that has a potential, or is a damper \[N\].
 fn account_for_motion(
     timeline: &Timeline,
-    context: &mut StepContext,
+    context: &StepContext,
     slot: u32,
     ([position, mean], [before, after]): ([DVec3; 2], [DVec3; 2]),
     [time, tick]: [f64; 2],
-) -> DVec3 {
+) -> (Changes, DVec3) {
     let system = context.system;
     let Species { radius, mass, acceleration, drag_rate, .. } =
         *timeline.flights.free_species_of(slot);
     let way = (tick - time) * mean;
     let gained = 0.5 * mass * (after - before).dot(after + before);
     let all = mass * (acceleration - drag_rate * before);
-    let account = &mut context.report.energy_account;
-    account.correction += gained - all.dot(way);
+    let energy_of_changes = 0.5 * mass * (after - before).length_squared();
+    let mut changes = Changes { energy_of_changes, ..Changes::default() };
+    changes.account.correction = gained - all.dot(way);
     if !system.has_nonconservative_forces() {
-        return all;
+        return (changes, all);
     }
     let state = SphereState { position, velocity: before, radius, mass };
     let force = forces::total_nonconservative(system.forces, &state, time);
     let index = timeline.flights.index_of[slot as usize] as usize;
     let applied = system.spheres.applied_force.get(index).copied().unwrap_or(DVec3::ZERO);
     let works = [force, applied].map(|force| force.dot(way));
-    account.add_force_work(ForceWork {
+    changes.account.add_force_work(ForceWork {
         forces: works[0],
         applied: works[1],
         ..ForceWork::default()
     });
-    all - force - applied
+    (changes, all - force - applied)
 }
 
 /// Adds a sphere, by its slot, to a zone with this centre \[m\] and velocity \[m/s\].
@@ -235,8 +237,8 @@ fn join(
     let sphere = context.system.spheres.id[index as usize];
     let mean = in_front(timeline, context, slot, [position, mean], [time, next]);
     let motion = ([position, mean], [velocity, later]);
-    let force = account_for_motion(timeline, context, slot, motion, [time, next]);
-    timeline.zone.join(sphere, [velocity, later], force, time);
+    let (changes, force) = account_for_motion(timeline, context, slot, motion, [time, next]);
+    timeline.zone.join(sphere, [velocity, later], force, (time, changes));
     timeline.flights.enter_zone(slot, [position, mean], time);
     timeline.note_flight(slot);
     timeline.note_for_companions(slot);

@@ -5,6 +5,7 @@
 //! others meet them at the exact time. What meets one joins it.
 
 pub(crate) mod budget;
+mod changes;
 pub(crate) mod frame_work;
 mod join;
 mod near;

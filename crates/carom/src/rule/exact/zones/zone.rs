@@ -4,6 +4,7 @@
 use educe::Educe;
 use glam::DVec3;
 
+use super::changes::Changes;
 use crate::bodies::{Motion, Properties, Spin};
 use crate::forces;
 use crate::id::SphereId;
@@ -57,11 +58,7 @@ pub(crate) struct Zone {
     /// sleep.
     ticks: [f64; 2],
     /// Changes of energy in the sub-step from the last tick to the next one.
-    account: EnergyAccount,
-    /// Kinetic energy of the changes of velocity in that sub-step \[J\].
-    energy_of_changes: f64,
-    /// Part of the account that is reported, 0 to 1.
-    reported: f64,
+    changes: Changes,
     /// Number of halvings of a tick that small spheres need.
     halvings: u32,
     /// Held forces between spheres \[N\], by index in the arrays of the world; empty where there are none.
@@ -81,6 +78,16 @@ struct Waiting {
     velocities: [DVec3; 2],
     /// Forces that have a potential, as they act on it until the tick \[N\].
     force: DVec3,
+    /// Changes of energy until the tick.
+    changes: Changes,
+}
+
+impl Waiting {
+    /// The part of the way from its joining to the next tick \[s\] that is over at a time \[s\], 0 to 1.
+    fn part(&self, time: f64, next: f64) -> f64 {
+        let part = if next > self.since { (time - self.since) / (next - self.since) } else { 1.0 };
+        part.clamp(0.0, 1.0)
+    }
 }
 
 /// The motion of a sphere in a zone between two ticks.
@@ -149,9 +156,16 @@ impl Zone {
     }
 
     /// Adds a sphere for which [`Self::expect`] was called. Its velocity changes steadily from that at `since`,
-    /// when it joined \[s\], to that at the next tick \[m/s\], under a `force` that has a potential \[N\].
-    pub fn join(&mut self, sphere: SphereId, velocities: [DVec3; 2], force: DVec3, since: f64) {
-        self.waiting.push(Waiting { sphere, since, velocities, force });
+    /// when it joined \[s\], to that at the next tick \[m/s\], under a `force` that has a potential \[N\]; with the changes
+    /// of energy until then.
+    pub fn join(
+        &mut self,
+        sphere: SphereId,
+        velocities: [DVec3; 2],
+        force: DVec3,
+        (since, changes): (f64, Changes),
+    ) {
+        self.waiting.push(Waiting { sphere, since, velocities, force, changes });
     }
 
     /// The force that has a potential, as it acts until the next tick on a sphere with this index and id \[N\].
@@ -167,16 +181,14 @@ impl Zone {
         part(tick, self.halvings)
     }
 
-    /// Reports the changes of energy up to `time` \[s\], at most up to the next tick. Between two ticks they grow
-    /// linearly, as velocities do, whose energy is then less than that by a parabola.
+    /// Reports the changes of energy up to `time` \[s\], at most up to the next tick.
     pub fn report_energy(&mut self, time: f64, account: &mut EnergyAccount) {
         let [last, next] = self.ticks;
-        let part =
-            if time < next { ((time - last) / (next - last)).max(self.reported) } else { 1.0 };
-        let missing = |part: f64| self.energy_of_changes * part * (1.0 - part);
-        account.integration += missing(self.reported) - missing(part);
-        *account += self.account.part(part - self.reported);
-        self.reported = part;
+        let part = if time < next { (time - last) / (next - last) } else { 1.0 };
+        self.changes.report(part, account);
+        for waiting in &mut self.waiting {
+            waiting.changes.report(waiting.part(time, next), account);
+        }
     }
 
     /// Restarts all spheres that are still there at the first tick after a time \[s\], with these
@@ -188,7 +200,7 @@ impl Zone {
         self.properties = Properties::default();
         (self.motion, self.velocity_before, self.free_ticks) = Default::default();
         // The rest of the sub-step is dropped.
-        (self.account, self.energy_of_changes) = (EnergyAccount::default(), 0.0);
+        self.changes = Changes::default();
         self.conservative_forces.clear();
         self.near.clear();
         // The held forces may be outdated, and their indices may belong to other spheres now.
@@ -198,7 +210,7 @@ impl Zone {
             self.expect(system, index, time, tick);
             let (sphere, velocity) =
                 (system.spheres.id[index as usize], velocities[index as usize]);
-            self.join(sphere, [velocity; 2], DVec3::ZERO, time);
+            self.join(sphere, [velocity; 2], DVec3::ZERO, (time, Changes::default()));
         }
     }
 
@@ -304,9 +316,8 @@ impl Zone {
     pub fn waiting(&self, time: f64) -> impl Iterator<Item = (SphereId, DVec3)> {
         let next = self.ticks[1];
         self.waiting.iter().map(move |waiting| {
-            let Waiting { sphere, since, velocities: [before, after], .. } = *waiting;
-            let part = if next > since { (time - since) / (next - since) } else { 1.0 };
-            (sphere, before + part.clamp(0.0, 1.0) * (after - before))
+            let Waiting { sphere, velocities: [before, after], .. } = *waiting;
+            (sphere, before + waiting.part(time, next) * (after - before))
         })
     }
 
@@ -391,10 +402,12 @@ impl Zone {
             contact::tick(&system, parameters, motion, frame, memory, report);
         });
         self.ticks = [now, next];
-        self.account = std::mem::replace(&mut report.energy_account, others);
-        self.energy_of_changes = energy_of_changes(&self.properties, [&before, &self.motion]);
+        self.changes = Changes {
+            account: std::mem::replace(&mut report.energy_account, others),
+            energy_of_changes: energy_of_changes(&self.properties, [&before, &self.motion]),
+            reported: 0.0,
+        };
         self.conservative_forces = contact::conservative_forces(&self.solver);
-        self.reported = 0.0;
         for (place, bears) in contact::bearing(&self.solver) {
             let ticks = &mut self.free_ticks[place as usize];
             *ticks = if bears { 0 } else { *ticks + 1 };
