@@ -67,7 +67,7 @@ fn check((world, gravity): (&World, DVec3), direction: &Variation, [h, part]: [f
 fn a_ball_in_a_groove_agrees_with_differences_and_with_the_gradient() {
     let gravity = vec(0.0, -G, 1.5);
     let mut numbers = Numbers(1);
-    for number in 0..20 {
+    for _ in 0..20 {
         let mut world = world_with(gravity);
         let mean = numbers.between(-0.2, 0.2);
         for side in [-1.0, 1.0] {
