@@ -66,7 +66,7 @@ pub(crate) fn start(
     }
     flights.set_stepped(&zone.indices(&system.spheres.id));
     let spring_rate = system.fastest_spring_rate();
-    zone.restart(system, time, [parameters.zone_tick, spring_rate], &motion.velocity);
+    zone.restart(system, (&flights, motion), time, [parameters.zone_tick, spring_rate]);
     let frame = [time; 2];
     let mut timeline = Timeline { parameters, flights, frame, zone, ..Timeline::default() };
     (timeline.spring_rate, timeline.held_until) = (spring_rate, time);
@@ -130,7 +130,7 @@ pub(crate) fn restart(before: &Timeline, system: &System, motion: &Motion, time:
     }
     let mut zone = before.zone.clone();
     flights.set_stepped(&zone.indices(&system.spheres.id));
-    zone.restart(system, time, [before.zone_tick(), before.spring_rate], &motion.velocity);
+    zone.restart(system, (&flights, motion), time, [before.zone_tick(), before.spring_rate]);
     resume(before, system, (flights, zone), before.next_emission, time)
 }
 

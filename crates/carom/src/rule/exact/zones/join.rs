@@ -2,16 +2,13 @@
 
 use glam::DVec3;
 
-use super::changes::Changes;
+use super::changes::changes_until_tick;
 use crate::detect::sphere_surface;
-use crate::force_work::ForceWork;
-use crate::forces::{self, SphereState};
 use crate::norm::Norm;
 use crate::rule::contact::{self, Passage};
 use crate::rule::exact::answer::changed::Changed;
 use crate::rule::exact::contacts::{self, Group};
 use crate::rule::exact::context::StepContext;
-use crate::rule::exact::flights::Species;
 use crate::rule::exact::persistent::held_forces;
 use crate::rule::exact::predict::moving::Around;
 use crate::rule::exact::timeline::Timeline;
@@ -175,41 +172,6 @@ fn under_forces(
     [before + 0.5 * gained, velocity + gained]
 }
 
-/// Returns the changes of energy of a sphere with this centre \[m\] that moves with a mean velocity from a time until the
-/// next tick \[s\], while its velocity changes from one to another \[m/s\]: what its forces do not do, the spheres or
-/// surfaces do with which it moves; and the part of its forces that has a potential, or is a damper \[N\].
-fn account_for_motion(
-    timeline: &Timeline,
-    context: &StepContext,
-    slot: u32,
-    ([position, mean], [before, after]): ([DVec3; 2], [DVec3; 2]),
-    [time, tick]: [f64; 2],
-) -> (Changes, DVec3) {
-    let system = context.system;
-    let Species { radius, mass, acceleration, drag_rate, .. } =
-        *timeline.flights.free_species_of(slot);
-    let way = (tick - time) * mean;
-    let gained = 0.5 * mass * (after - before).dot(after + before);
-    let all = mass * (acceleration - drag_rate * before);
-    let energy_of_changes = 0.5 * mass * (after - before).length_squared();
-    let mut changes = Changes { energy_of_changes, ..Changes::default() };
-    changes.account.correction = gained - all.dot(way);
-    if !system.has_nonconservative_forces() {
-        return (changes, all);
-    }
-    let state = SphereState { position, velocity: before, radius, mass };
-    let force = forces::total_nonconservative(system.forces, &state, time);
-    let index = timeline.flights.index_of[slot as usize] as usize;
-    let applied = system.spheres.applied_force.get(index).copied().unwrap_or(DVec3::ZERO);
-    let works = [force, applied].map(|force| force.dot(way));
-    changes.account.add_force_work(ForceWork {
-        forces: works[0],
-        applied: works[1],
-        ..ForceWork::default()
-    });
-    (changes, all - force - applied)
-}
-
 /// Adds a sphere, by its slot, to a zone with this centre \[m\] and velocity \[m/s\].
 fn join(
     timeline: &mut Timeline,
@@ -237,7 +199,8 @@ fn join(
     let sphere = context.system.spheres.id[index as usize];
     let mean = in_front(timeline, context, slot, [position, mean], [time, next]);
     let motion = ([position, mean], [velocity, later]);
-    let (changes, force) = account_for_motion(timeline, context, slot, motion, [time, next]);
+    let (changes, force) =
+        changes_until_tick(context.system, &timeline.flights, slot, motion, [time, next]);
     timeline.zone.join(sphere, [velocity, later], force, (time, changes));
     timeline.flights.enter_zone(slot, [position, mean], time);
     timeline.note_flight(slot);

@@ -10,6 +10,7 @@ pub(crate) mod frame_work;
 mod join;
 mod near;
 mod tick;
+mod waiting;
 pub(crate) mod zone;
 
 pub(super) use join::{make_zone, make_zone_about, meet};

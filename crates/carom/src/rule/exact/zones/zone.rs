@@ -4,7 +4,8 @@
 use educe::Educe;
 use glam::DVec3;
 
-use super::changes::Changes;
+use super::changes::{Changes, changes_until_tick};
+use super::waiting::Waiting;
 use crate::bodies::{Motion, Properties, Spin};
 use crate::forces;
 use crate::id::SphereId;
@@ -65,29 +66,6 @@ pub(crate) struct Zone {
     pub held_forces: Vec<DVec3>,
     /// Slots of spheres outside zones with a neighbour inside; some may appear more than once or be out of date.
     pub near: Vec<u32>,
-}
-
-/// A sphere that joined a zone and waits for its first tick.
-#[derive(Debug, Clone, Copy)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
-struct Waiting {
-    sphere: SphereId,
-    /// When it joined, on the world's clock \[s\].
-    since: f64,
-    /// Velocity of the sphere then and at the tick \[m/s\].
-    velocities: [DVec3; 2],
-    /// Forces that have a potential, as they act on it until the tick \[N\].
-    force: DVec3,
-    /// Changes of energy until the tick.
-    changes: Changes,
-}
-
-impl Waiting {
-    /// The part of the way from its joining to the next tick \[s\] that is over at a time \[s\], 0 to 1.
-    fn part(&self, time: f64, next: f64) -> f64 {
-        let part = if next > self.since { (time - self.since) / (next - self.since) } else { 1.0 };
-        part.clamp(0.0, 1.0)
-    }
 }
 
 /// The motion of a sphere in a zone between two ticks.
@@ -193,7 +171,13 @@ impl Zone {
 
     /// Restarts all spheres that are still there at the first tick after a time \[s\], with these
     /// velocities, by index \[m/s\]; ticks are as in [`Self::expect`].
-    pub fn restart(&mut self, system: &System, time: f64, tick: [f64; 2], velocities: &[DVec3]) {
+    pub fn restart(
+        &mut self,
+        system: &System,
+        (flights, motion): (&Flights, &Motion),
+        time: f64,
+        tick: [f64; 2],
+    ) {
         let all = self.indices(&system.spheres.id);
         self.waiting.clear();
         self.index.clear();
@@ -207,10 +191,18 @@ impl Zone {
         self.held_forces.clear();
         self.solver.set_changed();
         for index in all {
-            self.expect(system, index, time, tick);
-            let (sphere, velocity) =
-                (system.spheres.id[index as usize], velocities[index as usize]);
-            self.join(sphere, [velocity; 2], DVec3::ZERO, (time, Changes::default()));
+            let next = self.expect(system, index, time, tick);
+            let (slot, place) = (flights.slot_of[index as usize], index as usize);
+            let (position, velocity) = (motion.position[place], motion.velocity[place]);
+            let (changes, force) = match flights.free_species_of(slot).is_curved {
+                // What acts along a curve is not known yet.
+                true => Default::default(),
+                false => {
+                    let motion = ([position, velocity], [velocity; 2]);
+                    changes_until_tick(system, flights, slot, motion, [time, next])
+                }
+            };
+            self.join(system.spheres.id[place], [velocity; 2], force, (time, changes));
         }
     }
 
