@@ -161,3 +161,31 @@ fn take<'a>(claims: &'a [Claim], next: &AtomicUsize) -> Option<(usize, &'a Claim
     let i = next.fetch_add(1, Ordering::Relaxed);
     claims.get(i).map(|claim| (i, claim))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn kept_table_of_figures_has_every_claim_of_minutes_with_its_source() {
+        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../../docs/verification.csv");
+        let mut table = csv::Reader::from_path(path).unwrap();
+        assert_eq!(table.headers().unwrap(), report::COLUMNS.to_vec());
+        let kept: Vec<_> = table.records().map(Result::unwrap).collect();
+        let claims: Vec<Claim> = TOPICS.iter().flat_map(|(_, claims)| claims()).collect();
+        let is_known = |row: &csv::StringRecord| claims.iter().any(|it| it.name == row[0]);
+        assert!(kept.iter().all(is_known), "a row has no claim");
+        for claim in claims.iter().filter(|it| it.effort < Effort::Long) {
+            let name = &claim.name;
+            let row = kept.iter().find(|row| row[0] == **name);
+            let row = row.unwrap_or_else(|| panic!("docs/verification.csv lacks: {name}"));
+            let number = |column: usize| row[column].parse::<f64>().unwrap();
+            let expected = claim.expected.value;
+            assert!((number(1) - expected).abs() <= 1e-12 * expected.abs(), "{name}: {}", &row[1]);
+            assert_eq!(number(4), claim.tolerance.bound, "{name}");
+            assert_eq!(&row[7], claim.expected.source, "{name}");
+            // Deviation and run time.
+            assert!(number(3) <= claim.tolerance.bound && number(6) >= 0.0, "{name}");
+        }
+    }
+}

@@ -31,7 +31,7 @@ pub struct Finding {
 }
 
 /// Columns of a table of findings; the run time is in seconds.
-const COLUMNS: [&str; 9] = [
+pub const COLUMNS: [&str; 9] = [
     "claim",
     "expected",
     "measured",
